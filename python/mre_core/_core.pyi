@@ -1,5 +1,3 @@
-"""Interface of the Rust core. Units everywhere: millimetre, newton, second, ampere, degree Celsius."""
-
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Self, final
 
@@ -12,8 +10,6 @@ class MreError(ValueError): ...
 
 @final
 class Recording:
-    """One validated recording; immutable."""
-
     def __new__(
         cls,
         time: ArrayLike,
@@ -43,6 +39,10 @@ class Recording:
     @property
     def temperature(self) -> float | NDArray[np.float64] | None: ...
     @property
+    def current_level(self) -> float | None: ...
+    @property
+    def current_varies(self) -> bool: ...
+    @property
     def velocity_window(self) -> float | None: ...
     @property
     def sampling_rate(self) -> float: ...
@@ -54,18 +54,18 @@ class Recording:
 
 @final
 class Problem:
-    """Fitness of a model's parameters on recordings."""
-
     def __new__(
         cls,
         recordings: Recording | Sequence[Recording],
         model: str = "sinh",
         bounds: Mapping[str, tuple[float, float]] | None = None,
         *,
-        weights: str | Sequence[float] | None = None,
+        weights: str | ArrayLike | None = None,
     ) -> Self: ...
     @property
     def model(self) -> str: ...
+    @property
+    def recordings(self) -> list[Recording]: ...
     @property
     def names(self) -> list[str]: ...
     @property
@@ -74,4 +74,65 @@ class Problem:
     def lower(self) -> NDArray[np.float64]: ...
     @property
     def upper(self) -> NDArray[np.float64]: ...
-    def fitness(self, x: ArrayLike, *, threads: int | None = None) -> NDArray[np.float64]: ...
+    def fitness(self, x: ArrayLike, *, threads: int | None = None) -> Any: ...
+    def levels(self, x: ArrayLike, current: float | None = None) -> list[tuple[float | None, list[float]]]: ...
+    def on_bound(self, x: ArrayLike) -> list[int]: ...
+
+@final
+class Swarm:
+    def __new__(
+        cls,
+        kind: str,
+        settings: dict[str, Any],
+        seed: int,
+        *,
+        problem: Problem | None = None,
+        lower: ArrayLike | None = None,
+        upper: ArrayLike | None = None,
+        names: list[str] | None = None,
+        start: ArrayLike | None = None,
+    ) -> Self: ...
+    def ask(self) -> NDArray[np.float64]: ...
+    def tell(self, costs: ArrayLike) -> None: ...
+    @property
+    def finished(self) -> bool: ...
+    @property
+    def best(self) -> tuple[NDArray[np.float64], float]: ...
+    @property
+    def evaluations(self) -> tuple[int, int]: ...
+    @property
+    def history(self) -> dict[str, NDArray[Any]]: ...
+    @property
+    def behaviours(self) -> dict[str, int]: ...
+    def run_problem(
+        self,
+        problem: Problem,
+        *,
+        max_evaluations: int | None = None,
+        time_limit: float | None = None,
+        target: float | None = None,
+        threads: int | None = None,
+        callback: Callable[[int, int, float], Any] | None = None,
+        on_interrupt: str = "raise",
+    ) -> str: ...
+    def run_function(
+        self,
+        function: Callable[[NDArray[np.float64]], ArrayLike],
+        *,
+        max_evaluations: int | None = None,
+        time_limit: float | None = None,
+        target: float | None = None,
+        callback: Callable[[int, int, float], Any] | None = None,
+        on_interrupt: str = "raise",
+    ) -> str: ...
+
+def models() -> list[str]: ...
+def parameters(model: str) -> list[tuple[str, str]]: ...
+def simulate(
+    model: str, levels: Sequence[tuple[float | None, Sequence[float]]], recording: Recording
+) -> NDArray[np.float64]: ...
+def classical(
+    kx: float, kw: float, rho: float, sigma: float, n: float
+) -> tuple[float, float | None, float, float, float]: ...
+def uniforms(seed: int, stream: int, count: int) -> NDArray[np.float64]: ...
+def inertia_weight(iteration: int, iterations: int, p: int) -> float: ...

@@ -1,0 +1,1 @@
+//! Recordings on which the benchmarks run.

@@ -1,0 +1,40 @@
+"""Identify hysteresis models of magnetorheological elastomer isolators and dampers from recordings.
+
+Units everywhere: millimetre, newton, second, ampere, degree Celsius.
+"""
+
+from ._core import MreError, Problem, Recording, __version__, inertia_weight, models
+from .asktell import AskTell
+from .errors import ExtrapolationWarning, InputError, UnitAssumedWarning
+from .identify import Fit, Identification, identify
+from .load import from_dataframe, load
+from .model import Level, Model, simulate
+from .results import Parameter, StopReason, SwarmResult
+from .swarms import afsa, mafsa, pso
+
+__all__ = [
+    "AskTell",
+    "ExtrapolationWarning",
+    "Fit",
+    "Identification",
+    "InputError",
+    "Level",
+    "Model",
+    "MreError",
+    "Parameter",
+    "Problem",
+    "Recording",
+    "StopReason",
+    "SwarmResult",
+    "UnitAssumedWarning",
+    "__version__",
+    "afsa",
+    "from_dataframe",
+    "identify",
+    "inertia_weight",
+    "load",
+    "mafsa",
+    "models",
+    "pso",
+    "simulate",
+]

@@ -1,0 +1,213 @@
+"""Which column of a table stands for what, and in which unit."""
+
+import re
+from collections.abc import Collection, Mapping, Sequence
+from typing import Final, NamedTuple
+
+from .errors import InputError, listed
+from .units import IDENTITY, ROLES, Conversion, conversion, find_conversion, measured_by
+
+ALIASES: Final[dict[str, str]] = {
+    alias: role
+    for role, aliases in {
+        "time": ("time", "t", "zeit"),
+        "displacement": ("displacement", "disp", "stroke", "position"),
+        "velocity": ("velocity", "vel"),
+        "force": ("force", "load", "kraft"),
+        "current": ("current", "strom"),
+        "temperature": ("temperature", "temp"),
+        "simulated": ("simulated_force", "simulated"),
+    }.items()
+    for alias in aliases
+}
+
+CANONICAL: Final[dict[str, str]] = {
+    "time": "time_s",
+    "displacement": "displacement_mm",
+    "velocity": "velocity_mm_s",
+    "force": "force_N",
+    "current": "current_A",
+    "temperature": "temperature_C",
+    "simulated": "simulated_force_N",
+}
+
+_BRACKETS: Final = re.compile(r"(.*?)\s*(?:\[([^\[\]]*)\]|\(([^()]*)\))\s*", re.DOTALL)
+
+
+class Column(NamedTuple):
+    """A column with a role: how its values become canonical, and whether that is an assumption."""
+
+    header: str
+    role: str
+    conversion: Conversion
+    assumed: bool
+
+
+def find_columns(
+    headers: Sequence[str],
+    map: Mapping[str, str] | None = None,
+    *,
+    require_force: bool = True,
+    fixed: Collection[str] = (),
+    file: str | None = None,
+) -> dict[str, Column]:
+    """Find the column and the unit of every role.
+
+    Parameters
+    ----------
+    headers : sequence of str
+        Column names, all different.
+    map : mapping of str to str, optional
+        Role to ``column`` or ``column[unit]``; other roles are recognised by their header.
+    require_force : bool
+        Whether a missing force is an error, as a missing time or displacement is.
+    fixed : collection of str
+        Roles that need no column because their value is known.
+    file : str, optional
+        Source of the table, for messages.
+
+    Returns
+    -------
+    dict of str to Column
+        Roles found, in the order of `ROLES`.
+
+    Raises
+    ------
+    InputError
+        A role is missing, ambiguous or unknown, a mapped column does not exist, or a unit is wrong.
+    """
+    found: dict[str, Column] = {}
+    for role, text in (map or {}).items():
+        if role not in ROLES:
+            raise InputError(f"map names the role '{role}'", file=file, value=role, wanted=", ".join(ROLES))
+        if role not in fixed:
+            found[role] = _mapped(role, text, headers, file)
+    taken: dict[str, str] = {}
+    for role, column in found.items():
+        if column.header in taken:
+            problem = f"mapped to both {taken[column.header]} and {role}"
+            raise InputError(problem, file=file, column=column.header, wanted="one role for each column")
+        taken[column.header] = role
+    for header in headers:
+        match = None if header in taken else _recognised(header)
+        if match is None or match[0] in taken.values() or match[0] in fixed:
+            continue
+        role, unit = match
+        if role in found:
+            raise InputError(
+                f"columns '{found[role].header}' and '{header}' both read as {role}",
+                file=file,
+                wanted=f"one of them named by map, as {role}={header}",
+            )
+        known = IDENTITY if unit is None else conversion(unit, role, file=file, column=header)
+        found[role] = Column(header, role, known, unit is None)
+    required = ["time", "displacement", *(["force"] if require_force else [])]
+    for role in required:
+        if role not in found:
+            raise InputError(
+                f"no column for {role} among {listed(list(headers))}",
+                file=file,
+                wanted=f"{CANONICAL[role]}, or another one named by map, as {role}=NAME[{ROLES[role].unit}]",
+            )
+    return {role: found[role] for role in ROLES if role in found}
+
+
+def assumption(columns: Collection[Column], file: str | None = None) -> str | None:
+    """Say which units are assumed.
+
+    Parameters
+    ----------
+    columns : collection of Column
+        Columns in use.
+    file : str, optional
+        Source of the table.
+
+    Returns
+    -------
+    str or None
+        One line, or None where every unit is known.
+    """
+    assumed = [column for column in columns if column.assumed]
+    if not assumed:
+        return None
+    units = ", ".join(f"'{column.header}' (taken as {ROLES[column.role].unit})" for column in assumed)
+    example = f"map {assumed[0].role}='{assumed[0].header}[{ROLES[assumed[0].role].unit}]'"
+    return (f"{file}: " if file else "") + f"no unit in the header of {units}; to state it, {example}"
+
+
+def _split(header: str) -> tuple[str, str | None]:
+    """Split a header such as ``Force [kN]`` into name and unit."""
+    if match := _BRACKETS.fullmatch(header):
+        return match[1], (match[2] if match[2] is not None else match[3]).strip() or None
+    return header, None
+
+
+def _suffixes(header: str) -> list[tuple[str, str]]:
+    """Every split of a header in front of a word, longest ending first: ``vel``, ``m_s`` and so on."""
+    gaps = re.finditer(r"[_\s]+", header)
+    return [("", header), *((header[: gap.start()], header[gap.end() :]) for gap in gaps)]
+
+
+def _alias(name: str) -> str | None:
+    return ALIASES.get(re.sub(r"\s+", "_", name.strip().lower()))
+
+
+def _recognised(header: str) -> tuple[str, str | None] | None:
+    """Role and unit of a header that is an alias with at most a unit behind it."""
+    name, unit = _split(header.strip())
+    if role := _alias(name):
+        # A lone letter claims no unit of another quantity: "T [degC]" is not a time.
+        foreign = len(name) == 1 and unit is not None and find_conversion(unit, role) is None
+        return None if foreign else (role, unit)
+    for start, suffix in _suffixes(name) if unit is None else ():
+        if (role := _alias(start)) and find_conversion(suffix, role):
+            return role, suffix
+    return None
+
+
+def _mapped(role: str, text: str, headers: Sequence[str], file: str | None) -> Column:
+    """Resolve ``column`` or ``column[unit]``; the whole text is tried as a column first."""
+    if not isinstance(text, str) or not text.strip():
+        problem = f"map gives {text!r} for {role}"
+        raise InputError(problem, file=file, value=text, wanted="the name of a column")
+    if text in headers:
+        return _read_unit(role, text, file)
+    name, unit = _split(text) if text.rstrip().endswith("]") else (text, None)
+    if name in headers:
+        if unit is None:
+            return _read_unit(role, name, file)
+        return Column(name, role, conversion(unit, role, file=file, column=name), False)
+    # Loaded for this message only.
+    from difflib import get_close_matches
+
+    lower = {header.lower(): header for header in headers}
+    near = [lower[match] for match in get_close_matches(name.lower(), lower, n=3)]
+    hint = f" (nearest: {listed(near)})" if near else ""
+    raise InputError(
+        f"map names the column '{name}' for {role}, which is not there{hint}",
+        file=file,
+        value=text,
+        wanted=f"one of {listed(list(headers))}",
+    )
+
+
+def _read_unit(role: str, header: str, file: str | None) -> Column:
+    """Take the unit of a mapped column from its header."""
+    name, unit = _split(header)
+    if unit is not None:
+        return Column(header, role, conversion(unit, role, file=file, column=header), False)
+    for _, suffix in _suffixes(name):
+        if known := find_conversion(suffix, role):
+            return Column(header, role, known, False)
+    # A single letter is as likely the name of a sensor as a unit.
+    other = next((text for _, text in _suffixes(name) if len(text) > 1 and measured_by(text)), None)
+    if other is not None:
+        example = f"'{header}[{ROLES[role].unit}]' in the map if that is what it holds"
+        raise InputError(
+            f"mapped to {role}, but '{other}' is a unit of {measured_by(other)}",
+            file=file,
+            column=header,
+            value=other,
+            wanted=f"a column with a unit such as {ROLES[role].examples}, or {example}",
+        )
+    return Column(header, role, IDENTITY, True)

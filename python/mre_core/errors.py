@@ -1,0 +1,122 @@
+"""Errors and warnings about what a user hands in: one line each."""
+
+from typing import Any
+
+from ._core import MreError
+
+__all__ = ["ExtrapolationWarning", "InputError", "MreError", "UnitAssumedWarning"]
+
+_LONGEST_VALUE = 60
+
+
+class UnitAssumedWarning(UserWarning):
+    """A column states no unit, so the canonical one is taken."""
+
+
+class ExtrapolationWarning(UserWarning):
+    """A simulation leaves the range in which the model was identified."""
+
+
+class InputError(MreError):
+    """An input cannot be used; the text is one line saying where, what was found and what was wanted.
+
+    Parameters
+    ----------
+    problem : str, optional
+        What is wrong. Without it the text says which `value` was found.
+    file : str, optional
+        File, or whatever else names the source of the data.
+    line : int, optional
+        Line of the file, counted from 1 as in a text editor.
+    row : int, optional
+        Row of a table in memory, counted from 0.
+    column : str, optional
+        Column as written in the header.
+    value : object, optional
+        The value found.
+    wanted : str, optional
+        What would have been right.
+    """
+
+    def __init__(
+        self,
+        problem: str = "",
+        *,
+        file: str | None = None,
+        line: int | None = None,
+        row: int | None = None,
+        column: str | None = None,
+        value: Any = None,
+        wanted: str | None = None,
+    ) -> None:
+        self.file = file
+        self.line = line
+        self.row = row
+        self.column = column
+        self.value = value
+        self.wanted = wanted
+        spot = [
+            f"line {line}" if line is not None else "",
+            f"row {row}" if row is not None else "",
+            f"column {shown(column)}" if column is not None else "",
+        ]
+        what = problem or f"found {shown(value)}"
+        if wanted:
+            what += f", wanted {wanted}"
+        parts = [file or "", ", ".join(filter(None, spot)), what]
+        super().__init__(one_line(": ".join(filter(None, parts))))
+
+
+def one_line(text: str) -> str:
+    """Join the lines of a text and drop what a terminal would not print.
+
+    Parameters
+    ----------
+    text : str
+        Any text.
+
+    Returns
+    -------
+    str
+        The text in one line.
+    """
+    joined = " ".join(text.splitlines())
+    return "".join(char if char.isprintable() else "?" for char in joined)
+
+
+def shown(value: object) -> str:
+    """Write a value for a message: quoted where it is text, and shortened.
+
+    Parameters
+    ----------
+    value : object
+        Any value.
+
+    Returns
+    -------
+    str
+        One short line.
+    """
+    text = f"'{value}'" if isinstance(value, str) else str(value)
+    text = one_line(text)
+    return text if len(text) <= _LONGEST_VALUE else text[: _LONGEST_VALUE - 3] + "..."
+
+
+def listed(names: list[str], most: int = 8) -> str:
+    """List names for a message, shortened where there are many or long ones.
+
+    Parameters
+    ----------
+    names : list of str
+        Names, such as the columns of a file.
+    most : int
+        How many are spelled out.
+
+    Returns
+    -------
+    str
+        Names separated by commas.
+    """
+    short = [name if len(name) <= 32 else name[:29] + "..." for name in names[:most]]
+    more = [f"... ({len(names) - most} more)"] if len(names) > most else []
+    return ", ".join(short + more) or "none"

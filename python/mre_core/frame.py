@@ -1,0 +1,102 @@
+"""Columns of numbers out of a data frame of any make."""
+
+import math
+from decimal import Decimal
+from numbers import Real
+from typing import TYPE_CHECKING, Any
+
+from .errors import InputError, listed
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+
+def frame_headers(df: Any, source: str | None) -> dict[str, Any]:
+    """Name the columns of a frame.
+
+    Parameters
+    ----------
+    df : object
+        Anything with ``columns``.
+    source : str or None
+        Source of the frame, for messages.
+
+    Returns
+    -------
+    dict
+        Name to the label by which the frame knows the column.
+
+    Raises
+    ------
+    InputError
+        There are no columns, or two of the same name.
+    """
+    columns = getattr(df, "columns", None)
+    if columns is None or callable(columns):
+        raise InputError(f"found a {type(df).__name__}", file=source, value=df, wanted="a data frame")
+    labels = list(columns)
+    headers = {str(label): label for label in labels}
+    if len(headers) < len(labels):
+        names = [str(label) for label in labels]
+        twice = [name for name in headers if names.count(name) > 1]
+        raise InputError(
+            f"the frame has {listed(twice)} more than once",
+            file=source,
+            value=twice[0],
+            wanted="a different name for each column",
+        )
+    return headers
+
+
+def frame_numbers(series: Any, column: str, source: str | None) -> "NDArray[np.float64]":
+    """Read one column as numbers.
+
+    Parameters
+    ----------
+    series : array_like
+        Column of n numbers of any type.
+    column : str
+        Its name.
+    source : str or None
+        Source of the frame, for messages.
+
+    Returns
+    -------
+    (n,) ndarray
+        Finite values.
+
+    Raises
+    ------
+    InputError
+        A value is no finite number.
+    """
+    import numpy as np
+
+    array = np.asarray(series)
+    if array.ndim != 1:
+        raise InputError(
+            f"found {array.ndim} dimensions", file=source, column=column, wanted="one number in every row"
+        )
+    if array.dtype.kind in "iuf":
+        values = np.ascontiguousarray(array, dtype=np.float64)
+        if np.isfinite(values).all():
+            return values
+    # By item, because NumPy would take the text "1.5" and the truth value True for numbers. Dates and
+    # durations go as text: they are integers of some unit underneath.
+    items = (array.astype(str) if array.dtype.kind in "mM" else array).tolist()
+    numbers = np.empty(len(array))
+    for row, item in enumerate(items):
+        numbers[row] = _number(item)
+        if not math.isfinite(numbers[row]):
+            raise InputError(file=source, row=row, column=column, value=item, wanted="a finite number")
+    return numbers
+
+
+def _number(item: object) -> float:
+    if isinstance(item, Real | Decimal) and not isinstance(item, bool):
+        try:
+            return float(item)
+        except (ValueError, OverflowError):
+            return math.nan
+    return math.nan

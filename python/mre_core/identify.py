@@ -1,0 +1,205 @@
+"""From recordings to an identified model."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+
+from ._core import Problem, Recording, parameters
+from .errors import InputError
+from .model import Level, Model, simulate
+from .results import StopReason, SwarmResult
+from .swarms import afsa, draw_seed, mafsa, pso
+
+OPTIMIZERS: dict[str, Callable[..., SwarmResult]] = {"mafsa": mafsa, "afsa": afsa, "pso": pso}
+
+
+@dataclass(frozen=True)
+class Fit:
+    """How well the model follows one recording, over the samples that are scored."""
+
+    recording: str
+    current: float | None
+    """Level of the current in A; None where it is not known or changes."""
+    samples: int
+    rms: float
+    """Root mean square error in N (eq. 9)."""
+    relative_rms: float
+    """The same as a share of the root mean square of the force about its mean."""
+    peak_error: float
+    """Largest error as a share of the largest force."""
+
+
+@dataclass(frozen=True)
+class Identification:
+    """An identified model and how it was found."""
+
+    model: Model
+    runs: tuple[SwarmResult, ...]
+    """One run for each group of recordings with the same constant current."""
+    fits: tuple[Fit, ...]
+    optimizer: str
+    seed: int
+
+    @property
+    def interrupted(self) -> bool:
+        """True where Ctrl-C ended a run early."""
+        return any(run.reason is StopReason.INTERRUPTED for run in self.runs)
+
+    @property
+    def result(self) -> SwarmResult:
+        """The only run.
+
+        Raises
+        ------
+        ValueError
+            There are several.
+        """
+        if len(self.runs) != 1:
+            raise ValueError(f"there are {len(self.runs)} runs, one a current: see runs")
+        return self.runs[0]
+
+    def __str__(self) -> str:
+        return "\n".join(str(run) for run in self.runs)
+
+
+def identify(
+    recordings: Recording | Sequence[Recording],
+    model: str | Model = "sinh",
+    *,
+    optimizer: Literal["mafsa", "afsa", "pso"] = "mafsa",
+    seed: int | None = None,
+    bounds: Mapping[str, tuple[float, float]] | None = None,
+    weights: Literal["samples", "force"] | None = None,
+    on_level: Callable[[int, int, float | None], Any] | None = None,
+    **options: Any,
+) -> Identification:
+    """Identify a model from recordings.
+
+    Recordings with the same constant current share their parameters, and each current gets its own.
+    Where the current changes within a recording, all recordings share one law: coefficients affine in
+    the current, shapes and offset constant.
+
+    Parameters
+    ----------
+    recordings : Recording or sequence of them
+        With force.
+    model : str or Model
+        ``"kelvin_voigt"``, ``"sinh"`` or ``"bouc_wen"``, or a model whose parameters are starting values.
+    optimizer : {"mafsa", "afsa", "pso"}
+        Which swarm.
+    seed : int, optional
+        Same seed, same result. Drawn and reported where not given.
+    bounds : mapping of name to (lower, upper), optional
+        Bounds that replace default ones, which follow from the recordings (see `Problem`).
+    weights : {"samples", "force"}, optional
+        Every sample counts the same (eq. 5), or every recording by its mean squared force.
+    on_level : callable, optional
+        Called with (number of the group, number of groups, current) before each run.
+    **options
+        Keywords of `mafsa`, `afsa` or `pso`.
+
+    Returns
+    -------
+    Identification
+        The model, the runs, and the fit of every recording.
+
+    Raises
+    ------
+    MreError
+        The recordings, the model, a bound or an option cannot be used (a ValueError).
+    """
+    if optimizer not in OPTIMIZERS:
+        raise InputError(f"optimizer is {optimizer!r}", wanted=f"one of {', '.join(OPTIMIZERS)}")
+    name = model.name if isinstance(model, Model) else model
+    everything = [recordings] if isinstance(recordings, Recording) else list(recordings)
+    groups = group_by_current(everything)
+    problems = [Problem(members, name, bounds, weights=weights) for _, members in groups]
+    seed = draw_seed(seed)
+    levels: list[Level] = []
+    runs = []
+    for i, ((current, members), problem) in enumerate(zip(groups, problems, strict=True)):
+        if on_level is not None:
+            on_level(i, len(groups), current)
+        start = _start(model, problem, current) if isinstance(model, Model) else None
+        run = OPTIMIZERS[optimizer](problem, seed=seed, **({"x0": start} | options))
+        runs.append(run)
+        symbols = [symbol for symbol, _ in parameters(name)]
+        for level, values in problem.levels(run.x, current):
+            levels.append(Level(level, dict(zip(symbols, values, strict=True))))
+        if run.reason is StopReason.INTERRUPTED:
+            everything = [r for _, done in groups[: i + 1] for r in done]
+            break
+    found = Model(name, tuple(levels), _tested(everything))
+    fits = tuple(measure_fit(found, recording) for recording in everything)
+    return Identification(found, tuple(runs), fits, optimizer, seed)
+
+
+def group_by_current(recordings: Sequence[Recording]) -> list[tuple[float | None, list[Recording]]]:
+    """Group recordings that share their parameters, by rising current.
+
+    Levels closer than 0.02 A plus 2 % are one. One recording with changing current puts all into one
+    group without a level.
+    """
+    if not recordings:
+        raise InputError("recordings are an empty list", wanted="at least one recording")
+    if any(recording.current_varies for recording in recordings):
+        return [(None, list(recordings))]
+    known = [r for r in recordings if r.current_level is not None]
+    unknown = [r for r in recordings if r.current_level is None]
+    if known and unknown:
+        raise InputError(
+            f"recording '{unknown[0].name}' has no current, others have", wanted="current=VALUE[A] for all"
+        )
+    if unknown:
+        return [(None, unknown)]
+    groups: list[list[Recording]] = []
+    for recording in sorted(known, key=lambda r: r.current_level or 0.0):
+        level = recording.current_level or 0.0
+        last = groups[-1][-1].current_level or 0.0 if groups else -np.inf
+        if level - last <= 0.02 + 0.02 * abs(level):
+            groups[-1].append(recording)
+        else:
+            groups.append([recording])
+    return [(float(np.mean([r.current_level or 0.0 for r in group])), group) for group in groups]
+
+
+def measure_fit(model: Model, recording: Recording) -> Fit:
+    """Compare a model with the force of a recording, over the samples that are scored."""
+    scored = slice(*recording.scored)
+    if recording.force is None:
+        raise InputError(f"recording '{recording.name}' has no force", wanted="a force to compare with")
+    force = recording.force[scored]
+    error = force - simulate(model, recording)[scored]
+    rms = float(np.sqrt(np.mean(error**2)))
+    spread = float(np.std(force))
+    return Fit(
+        recording=recording.name,
+        current=recording.current_level,
+        samples=len(force),
+        rms=rms,
+        relative_rms=rms / spread if spread > 0 else float("inf"),
+        peak_error=float(np.abs(error).max() / np.abs(force).max()),
+    )
+
+
+def _tested(recordings: Sequence[Recording]) -> dict[str, float]:
+    return {
+        "displacement_mm": max(float(np.abs(r.displacement).max()) for r in recordings),
+        "velocity_mm_s": max(float(np.abs(r.velocity).max()) for r in recordings),
+    }
+
+
+def _start(model: Model, problem: Problem, current: float | None) -> list[float]:
+    """Starting values: the level of a model that is nearest to the current, under the problem's names."""
+
+    def nearest(wanted: float | None) -> Level:
+        return min(model.levels, key=lambda level: abs((level.current or 0.0) - (wanted or 0.0)))
+
+    start = []
+    for name in problem.names:
+        symbol, _, at = name.partition("(")
+        level = nearest(float(at.removesuffix(" A)")) if at else current)
+        start.append(float(level.parameters[symbol]))
+    return start

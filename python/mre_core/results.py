@@ -1,0 +1,156 @@
+"""What an optimisation returns."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import StrEnum
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._core import Problem, Swarm
+
+
+class StopReason(StrEnum):
+    """Why an optimisation stopped."""
+
+    MAX_ITERATIONS = "max_iterations"
+    MAX_EVALUATIONS = "max_evaluations"
+    TIME_LIMIT = "time_limit"
+    TARGET = "target"
+    CALLBACK = "callback"
+    INTERRUPTED = "interrupted"
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A parameter with its value, unit and the box it was searched in."""
+
+    name: str
+    value: float
+    unit: str
+    lower: float
+    upper: float
+    on_bound: str | None = None
+    """``"lower"`` or ``"upper"`` where the value lies on that bound."""
+
+
+@dataclass(frozen=True)
+class SwarmResult:
+    """Outcome of `afsa`, `mafsa` or `pso`, with SciPy's names `x`, `fun`, `nfev`, `nit` beside ours."""
+
+    algorithm: str
+    parameters: tuple[Parameter, ...]
+    fitness: float
+    """Best fitness ever evaluated: mean squared error in N^2 (eq. 5), or the user's function."""
+    unit: str
+    """Unit of the fitness; empty for a user's function."""
+    reason: StopReason
+    seed: int
+    n_iterations: int
+    n_evaluations: int
+    n_failures: int
+    """Evaluations that cost infinity, such as simulations that cannot be computed."""
+    history: NDArray[Any] = field(repr=False)
+    """One row an iteration, the initial swarm first: best, mean, evaluations, range, step."""
+    behaviours: Mapping[str, int]
+    """How often each behaviour of the fish decided a move; zeros for particles."""
+    settings: Mapping[str, Any] = field(repr=False)
+
+    @property
+    def x(self) -> NDArray[np.float64]:
+        """Best parameters, shape (d,)."""
+        return np.array([parameter.value for parameter in self.parameters])
+
+    @property
+    def fun(self) -> float:
+        """Same as `fitness`."""
+        return self.fitness
+
+    @property
+    def nfev(self) -> int:
+        """Same as `n_evaluations`."""
+        return self.n_evaluations
+
+    @property
+    def nit(self) -> int:
+        """Same as `n_iterations`."""
+        return self.n_iterations
+
+    @property
+    def success(self) -> bool:
+        """True where a finite fitness was found and nobody interrupted."""
+        return bool(np.isfinite(self.fitness)) and self.reason is not StopReason.INTERRUPTED
+
+    @property
+    def rms(self) -> float:
+        """Root of the fitness in N (eq. 9)."""
+        return float(np.sqrt(self.fitness))
+
+    @property
+    def values(self) -> dict[str, float]:
+        """Parameters by name."""
+        return {parameter.name: parameter.value for parameter in self.parameters}
+
+    def __str__(self) -> str:
+        rows = [f"{self.algorithm}: fitness {self.fitness:.6g} {self.unit}".rstrip()]
+        for p in self.parameters:
+            bound = f"  on its {p.on_bound} bound" if p.on_bound else ""
+            rows.append(f"  {p.name:<12} {p.value:>14.6g} {p.unit}{bound}".rstrip())
+        rows.append(
+            f"  {self.n_iterations} iterations, {self.n_evaluations} evaluations"
+            f" ({self.n_failures} failed), stopped by {self.reason}, seed {self.seed}"
+        )
+        return "\n".join(rows)
+
+
+def collect(
+    algorithm: str,
+    swarm: Swarm,
+    reason: StopReason,
+    *,
+    problem: Problem | None,
+    box: tuple[list[str], NDArray[np.float64], NDArray[np.float64]],
+    seed: int,
+    settings: Mapping[str, Any],
+) -> SwarmResult:
+    """Put together the result of a swarm that has run."""
+    x, cost = swarm.best
+    names, lower, upper = box
+    units = problem.units if problem is not None else [""] * len(names)
+    bounds = problem.on_bound(x) if problem is not None else _on_bound(x, lower, upper)
+    sides = {-1: "lower", 0: None, 1: "upper"}
+    columns = swarm.history
+    history = np.rec.fromarrays(list(columns.values()), names=list(columns))
+    history.setflags(write=False)
+    evaluations, failures = swarm.evaluations
+    return SwarmResult(
+        algorithm=algorithm,
+        parameters=tuple(
+            Parameter(*row)
+            for row in zip(
+                names,
+                x.tolist(),
+                units,
+                lower.tolist(),
+                upper.tolist(),
+                (sides[side] for side in bounds),
+                strict=True,
+            )
+        ),
+        fitness=cost,
+        unit="N^2" if problem is not None else "",
+        reason=reason,
+        seed=seed,
+        n_iterations=max(len(history) - 1, 0),
+        n_evaluations=evaluations,
+        n_failures=failures,
+        history=history,
+        behaviours=swarm.behaviours,
+        settings=dict(settings),
+    )
+
+
+def _on_bound(x: NDArray[np.float64], lower: NDArray[np.float64], upper: NDArray[np.float64]) -> list[int]:
+    unit = (x - lower) / (upper - lower)
+    return [-1 if u < 1e-6 else int(u > 1 - 1e-6) for u in unit]

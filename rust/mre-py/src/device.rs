@@ -1,0 +1,46 @@
+//! Models by name, and the simulation of an identified device.
+
+use mre::device::{Device, Level};
+use mre::extent::Extent;
+use mre::model::{self, Model};
+use mre::physics::Classical;
+use numpy::PyArray1;
+use pyo3::prelude::*;
+
+use crate::error::to_python;
+use crate::recording::Recording;
+
+/// Names of the models.
+#[pyfunction]
+pub(crate) fn models() -> Vec<&'static str> {
+    model::names()
+}
+
+/// Names and units of a model's parameters.
+#[pyfunction]
+pub(crate) fn parameters(model: &str) -> PyResult<Vec<(String, &'static str)>> {
+    let model = Model::named(model).map_err(to_python)?;
+    Ok(model.parameters(&Extent::UNIT).into_iter().map(|p| (p.name, p.unit)).collect())
+}
+
+/// Restoring force in N of a model with parameters at levels of the current, over a recording.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)] // taken over from Python
+pub(crate) fn simulate<'py>(
+    py: Python<'py>,
+    model: &str,
+    levels: Vec<(Option<f64>, Vec<f64>)>,
+    recording: Recording,
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    let levels = levels.into_iter().map(|(current, values)| Level { current, values }).collect();
+    let device = Device::new(Model::named(model).map_err(to_python)?, levels).map_err(to_python)?;
+    let force = py.detach(|| device.simulate(&recording.inner)).map_err(to_python)?;
+    Ok(PyArray1::from_vec(py, force))
+}
+
+/// `(k0, alpha, A, beta, gamma)` of eq. 1 and 2 from the normalised Bouc-Wen parameters.
+#[pyfunction]
+pub(crate) fn classical(kx: f64, kw: f64, rho: f64, sigma: f64, n: f64) -> (f64, Option<f64>, f64, f64, f64) {
+    let c = Classical::from_normalised(kx, kw, rho, sigma, n);
+    (c.k0, c.alpha, 1.0, c.beta, c.gamma)
+}

@@ -1,0 +1,33 @@
+//! The Python module `mre_core._core`: arrays in, arrays out, errors, signals. No mathematics.
+
+use pyo3::prelude::*;
+
+mod array;
+mod device;
+mod error;
+mod problem;
+mod recording;
+mod run;
+mod settings;
+mod swarm;
+
+#[pymodule]
+mod _core {
+    #[pymodule_export]
+    use crate::device::{classical, models, parameters, simulate};
+    #[pymodule_export]
+    use crate::error::MreError;
+    #[pymodule_export]
+    use crate::problem::Problem;
+    #[pymodule_export]
+    use crate::recording::Recording;
+    #[pymodule_export]
+    use crate::swarm::{Swarm, inertia_weight, uniforms};
+
+    use super::{Bound, PyModule, PyModuleMethods, PyResult};
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
+}

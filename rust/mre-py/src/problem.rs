@@ -1,0 +1,138 @@
+//! `Problem`: the fitness of a model on recordings.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use mre::fitness::{Problem as Core, Weights};
+use mre::model::Model;
+use numpy::PyArray1;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::array;
+use crate::error::{setting, to_python};
+use crate::recording::Recording;
+use crate::run::in_pool;
+
+/// Fitness of a model's parameters on recordings; immutable.
+#[pyclass(frozen, module = "mre_core._core")]
+pub(crate) struct Problem {
+    pub(crate) inner: Arc<Core>,
+    recordings: Vec<Recording>,
+}
+
+type NewArguments<'py> = ((Vec<Recording>, &'static str, HashMap<String, (f64, f64)>), Bound<'py, PyDict>);
+
+fn to_weights(value: Option<&Bound<'_, PyAny>>) -> PyResult<Weights> {
+    let Some(value) = value else { return Ok(Weights::Samples) };
+    match value.extract::<String>() {
+        Ok(name) if name == "force" => Ok(Weights::Force),
+        Ok(name) if name == "samples" => Ok(Weights::Samples),
+        Ok(name) => {
+            Err(setting("weights", format!("'{name}'"), "'samples', 'force', or one number a recording"))
+        }
+        Err(_) => Ok(Weights::Given(array::vector("weights", value)?)),
+    }
+}
+
+#[pymethods]
+impl Problem {
+    #[new]
+    #[pyo3(signature = (recordings, model="sinh", bounds=None, *, weights=None))]
+    fn new(
+        recordings: &Bound<'_, PyAny>,
+        model: &str,
+        bounds: Option<HashMap<String, (f64, f64)>>,
+        weights: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Self> {
+        let recordings = match recordings.extract::<Recording>() {
+            Ok(single) => vec![single],
+            Err(_) => recordings.extract::<Vec<Recording>>()?,
+        };
+        let model = Model::named(model).map_err(to_python)?;
+        let mut bounds: Vec<(String, f64, f64)> =
+            bounds.unwrap_or_default().into_iter().map(|(name, (low, high))| (name, low, high)).collect();
+        bounds.sort_by(|a, b| a.0.cmp(&b.0)); // the same error whatever the order of the hash
+        let weights = to_weights(weights)?;
+        let cores = recordings.iter().map(|r| Arc::clone(&r.inner)).collect();
+        let inner = Core::new(cores, model, &bounds, &weights).map_err(to_python)?;
+        Ok(Self { inner: Arc::new(inner), recordings })
+    }
+
+    #[getter]
+    fn model(&self) -> &'static str {
+        self.inner.model().name()
+    }
+
+    #[getter]
+    fn recordings(&self) -> Vec<Recording> {
+        self.recordings.clone()
+    }
+
+    #[getter]
+    fn names(&self) -> Vec<&str> {
+        self.inner.parameters().iter().map(|p| p.name.as_str()).collect()
+    }
+
+    #[getter]
+    fn units(&self) -> Vec<&'static str> {
+        self.inner.parameters().iter().map(|p| p.unit).collect()
+    }
+
+    #[getter]
+    fn lower<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_slice(py, self.inner.bounds().lower())
+    }
+
+    #[getter]
+    fn upper<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_slice(py, self.inner.bounds().upper())
+    }
+
+    /// Fitness in N^2 of one candidate or of rows of them.
+    #[pyo3(signature = (x, *, threads=None))]
+    fn fitness<'py>(
+        &self,
+        py: Python<'py>,
+        x: &Bound<'py, PyAny>,
+        threads: Option<i64>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let (rows, single) = array::rows("x", x, self.inner.parameters().len())?;
+        let costs = in_pool(py, threads, None, true, |link| {
+            let mut costs = vec![0.0; rows.len() / self.inner.parameters().len()];
+            self.inner.fitness(&rows, &mut costs, link.cancel());
+            costs
+        })?
+        .0;
+        if single {
+            return Ok(costs[0].into_pyobject(py)?.into_any());
+        }
+        Ok(PyArray1::from_vec(py, costs).into_any())
+    }
+
+    /// Levels of current and the model's parameters at them, for one candidate.
+    #[pyo3(signature = (x, current=None))]
+    fn levels(&self, x: &Bound<'_, PyAny>, current: Option<f64>) -> PyResult<Vec<(Option<f64>, Vec<f64>)>> {
+        let (row, _) = array::rows("x", x, self.inner.parameters().len())?;
+        Ok(self.inner.law().levels(&row, current).into_iter().map(|l| (l.current, l.values)).collect())
+    }
+
+    /// -1, 0 or 1 for every parameter: on its lower bound, inside, on its upper bound.
+    fn on_bound(&self, x: &Bound<'_, PyAny>) -> PyResult<Vec<i8>> {
+        let (row, _) = array::rows("x", x, self.inner.parameters().len())?;
+        Ok(self.inner.bounds().on_bound(&row))
+    }
+
+    /// For pickle.
+    fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<NewArguments<'py>> {
+        let bounds: HashMap<String, (f64, f64)> =
+            self.inner.parameters().iter().map(|p| (p.name.clone(), (p.lower, p.upper))).collect();
+        let keywords = PyDict::new(py);
+        keywords.set_item("weights", PyArray1::from_slice(py, self.inner.weights()))?;
+        Ok(((self.recordings(), self.model(), bounds), keywords))
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Problem({}, {} recordings)", self.inner.model().name(), self.recordings.len())
+    }
+}

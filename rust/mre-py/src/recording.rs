@@ -1,0 +1,190 @@
+//! `Recording`: a validated recording.
+
+use std::sync::Arc;
+
+use mre::recording::{Condition, Recording as Core, Series};
+use mre::transient;
+use numpy::PyArray1;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
+
+use crate::array::vector;
+use crate::error::to_python;
+
+/// One validated recording; immutable.
+#[pyclass(frozen, from_py_object, module = "mre_core._core")]
+#[derive(Clone)]
+pub(crate) struct Recording {
+    pub(crate) inner: Arc<Core>,
+}
+
+fn wrap(core: mre::error::Result<Core>) -> PyResult<Recording> {
+    Ok(Recording { inner: Arc::new(core.map_err(to_python)?) })
+}
+
+fn condition(what: &str, value: Option<&Bound<'_, PyAny>>) -> PyResult<Condition> {
+    Ok(match value {
+        None => Condition::Missing,
+        Some(value) => match value.extract::<f64>() {
+            Ok(number) => Condition::Constant(number),
+            Err(_) => Condition::Series(vector(what, value)?),
+        },
+    })
+}
+
+fn to_numpy<'py>(py: Python<'py>, condition: &Condition) -> PyResult<Option<Bound<'py, PyAny>>> {
+    Ok(match condition {
+        Condition::Missing => None,
+        Condition::Constant(value) => Some(value.into_pyobject(py)?.into_any()),
+        Condition::Series(values) => Some(PyArray1::from_slice(py, values).into_any()),
+    })
+}
+
+#[pymethods]
+impl Recording {
+    #[new]
+    #[pyo3(signature = (time, displacement, force, *, velocity=None, current=None, temperature=None, simulated=None, name=""))]
+    #[allow(clippy::too_many_arguments)] // the columns of a recording
+    fn new(
+        time: &Bound<'_, PyAny>,
+        displacement: &Bound<'_, PyAny>,
+        force: Option<&Bound<'_, PyAny>>,
+        velocity: Option<&Bound<'_, PyAny>>,
+        current: Option<&Bound<'_, PyAny>>,
+        temperature: Option<&Bound<'_, PyAny>>,
+        simulated: Option<&Bound<'_, PyAny>>,
+        name: &str,
+    ) -> PyResult<Self> {
+        let series = Series {
+            time: vector("time", time)?,
+            displacement: vector("displacement", displacement)?,
+            velocity: velocity.map(|v| vector("velocity", v)).transpose()?,
+            force: force.map(|v| vector("force", v)).transpose()?,
+            simulated: simulated.map(|v| vector("simulated", v)).transpose()?,
+            current: condition("current", current)?,
+            temperature: condition("temperature", temperature)?,
+            name: name.to_owned(),
+        };
+        wrap(time.py().detach(|| Core::new(series)))
+    }
+
+    #[getter]
+    fn name(&self) -> &str {
+        self.inner.name()
+    }
+
+    #[getter]
+    fn time<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_slice(py, self.inner.time())
+    }
+
+    #[getter]
+    fn displacement<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_slice(py, self.inner.displacement())
+    }
+
+    #[getter]
+    fn velocity<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_slice(py, self.inner.velocity())
+    }
+
+    #[getter]
+    fn force<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<f64>>> {
+        self.inner.force().map(|force| PyArray1::from_slice(py, force))
+    }
+
+    #[getter]
+    fn simulated<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<f64>>> {
+        self.inner.simulated().map(|force| PyArray1::from_slice(py, force))
+    }
+
+    #[getter]
+    fn current<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        to_numpy(py, self.inner.current())
+    }
+
+    #[getter]
+    fn temperature<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        to_numpy(py, self.inner.temperature())
+    }
+
+    #[getter]
+    fn current_level(&self) -> Option<f64> {
+        self.inner.current().level()
+    }
+
+    #[getter]
+    fn current_varies(&self) -> bool {
+        self.inner.current().varies()
+    }
+
+    #[getter]
+    fn velocity_window(&self) -> Option<f64> {
+        self.inner.velocity_window()
+    }
+
+    #[getter]
+    fn sampling_rate(&self) -> f64 {
+        self.inner.sampling_rate()
+    }
+
+    #[getter]
+    fn scored(&self) -> (usize, usize) {
+        let range = self.inner.scored();
+        (range.start, range.end)
+    }
+
+    fn __len__(&self) -> usize {
+        self.inner.len()
+    }
+
+    #[pyo3(signature = (start=None, stop=None))]
+    fn cut(&self, start: Option<f64>, stop: Option<f64>) -> PyResult<Self> {
+        wrap(self.inner.cut(start.unwrap_or(f64::NEG_INFINITY), stop.unwrap_or(f64::INFINITY)))
+    }
+
+    #[pyo3(signature = (*names))]
+    fn exclude(&self, names: &Bound<'_, PyTuple>) -> PyResult<Self> {
+        let names: Vec<String> = names.extract()?;
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        wrap(transient::exclude(&self.inner, &names))
+    }
+
+    fn __repr__(&self) -> String {
+        let time = self.inner.time();
+        format!(
+            "Recording('{}', {} samples, {} s to {} s, {:.6} Hz)",
+            self.inner.name(),
+            time.len(),
+            time[0],
+            time[time.len() - 1],
+            self.inner.sampling_rate()
+        )
+    }
+
+    /// For pickle: the columns, and the window and range that they alone do not tell.
+    #[staticmethod]
+    fn _restore(
+        columns: &Bound<'_, PyTuple>,
+        keywords: &Bound<'_, PyDict>,
+        window: Option<f64>,
+        scored: (usize, usize),
+    ) -> PyResult<Self> {
+        let plain = columns.py().get_type::<Self>().call(columns, Some(keywords))?.extract::<Self>()?;
+        wrap(plain.inner.restored(window, scored.0..scored.1))
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let py = slf.py();
+        let this = slf.get();
+        let keywords = PyDict::new(py);
+        keywords.set_item("velocity", this.velocity(py))?;
+        keywords.set_item("current", this.current(py)?)?;
+        keywords.set_item("temperature", this.temperature(py)?)?;
+        keywords.set_item("simulated", this.simulated(py))?;
+        keywords.set_item("name", this.name())?;
+        let columns = (this.time(py), this.displacement(py), this.force(py));
+        let arguments = (columns, keywords, this.inner.velocity_window(), this.scored());
+        Ok((slf.get_type().getattr("_restore")?, arguments.into_pyobject(py)?))
+    }
+}

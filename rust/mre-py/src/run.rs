@@ -1,0 +1,133 @@
+//! The only door for long work: detached from the interpreter, in its own thread pool, with Ctrl-C
+//! answered and progress reported from the calling thread.
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::time::Duration;
+
+use mre::swarm::Progress;
+use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
+use pyo3::prelude::*;
+
+use crate::error::{MreError, setting};
+
+const POLL: Duration = Duration::from_millis(50);
+
+/// What a job and the thread that waits for it tell each other.
+#[derive(Default)]
+pub(crate) struct Link {
+    cancel: AtomicBool,
+    progress: Mutex<Option<Progress>>,
+}
+
+impl Link {
+    /// Set when the job should end soon.
+    pub(crate) fn cancel(&self) -> &AtomicBool {
+        &self.cancel
+    }
+
+    /// Note the progress of the job; false when it should end.
+    pub(crate) fn report(&self, progress: Progress) -> bool {
+        if let Ok(mut latest) = self.progress.lock() {
+            *latest = Some(progress);
+        }
+        !self.cancel.load(Ordering::Relaxed)
+    }
+
+    fn take(&self) -> Option<Progress> {
+        self.progress.lock().ok().and_then(|mut latest| latest.take())
+    }
+}
+
+/// Who ended a job early.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Ended {
+    /// Nobody.
+    ByItself,
+    /// Ctrl-C.
+    Interrupted,
+    /// The callback returned something true.
+    ByCallback,
+}
+
+/// Run a job in a pool of its own. A signal or an exception in the callback stops it and is raised,
+/// unless the signal is Ctrl-C and `raise` is false.
+pub(crate) fn in_pool<R: Send>(
+    py: Python<'_>,
+    threads: Option<i64>,
+    callback: Option<&Py<PyAny>>,
+    raise: bool,
+    job: impl FnOnce(&Link) -> R + Send,
+) -> PyResult<(R, Ended)> {
+    let threads = match threads {
+        None => 0, // rayon: as many as the machine has
+        Some(n @ 1..=1024) => n as usize,
+        Some(n) => return Err(setting("threads", n, "a whole number from 1 to 1024")),
+    };
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+    let link = Link::default();
+    let (result, failure, mut ended) = py.detach(|| {
+        std::thread::scope(|scope| {
+            let (done, wait) = channel::<()>();
+            let link = &link;
+            let worker = scope.spawn(move || {
+                let result = pool.install(|| job(link));
+                drop(done);
+                result
+            });
+            let (mut failure, mut ended) = (None, Ended::ByItself);
+            while wait.recv_timeout(POLL) == Err(RecvTimeoutError::Timeout) {
+                if failure.is_none() && ended == Ended::ByItself {
+                    match Python::attach(|py| attend(py, link, callback)) {
+                        Ok(false) => {}
+                        Ok(true) => ended = Ended::ByCallback,
+                        Err(error) => failure = Some(error),
+                    }
+                    if failure.is_some() || ended != Ended::ByItself {
+                        link.cancel.store(true, Ordering::Relaxed);
+                    }
+                }
+            }
+            (worker.join(), failure, ended)
+        })
+    });
+    let Ok(result) = result else {
+        return Err(PyRuntimeError::new_err("a worker thread failed; please report this with its input"));
+    };
+    let last = if failure.is_none() { attend(py, &link, callback).err() } else { failure };
+    match last {
+        Some(error) if !raise && error.is_instance_of::<PyKeyboardInterrupt>(py) => {
+            ended = Ended::Interrupted;
+        }
+        Some(error) => return Err(error),
+        None => {}
+    }
+    Ok((result, ended))
+}
+
+/// Signals, then news for the callback. True when the callback asks to stop.
+fn attend(py: Python<'_>, link: &Link, callback: Option<&Py<PyAny>>) -> PyResult<bool> {
+    py.check_signals()?;
+    match (callback, link.take()) {
+        (Some(callback), Some(progress)) => call(py, callback, progress),
+        _ => Ok(false),
+    }
+}
+
+/// Tell the callback `(iteration, evaluations, best)`. True when it asks to stop.
+pub(crate) fn call(py: Python<'_>, callback: &Py<PyAny>, progress: Progress) -> PyResult<bool> {
+    callback.call1(py, (progress.iteration, progress.evaluations, progress.best))?.is_truthy(py)
+}
+
+/// "raise" or "return".
+pub(crate) fn raises(on_interrupt: &str) -> PyResult<bool> {
+    match on_interrupt {
+        "raise" => Ok(true),
+        "return" => Ok(false),
+        other => Err(MreError::new_err(format!("on_interrupt is '{other}': wanted 'raise' or 'return'"))),
+    }
+}

@@ -1,0 +1,130 @@
+//! An identified device: a model with its parameters at one or more levels of the coil current.
+//!
+//! Between two levels the force is interpolated linearly in the current, sample by sample; outside
+//! them the nearest level holds. So a law affine in the current is two levels, and a campaign at
+//! several constant currents is one level each.
+
+use crate::error::{Error, Result};
+use crate::extent::Extent;
+use crate::model::Model;
+use crate::recording::{Condition, Recording};
+
+/// Parameters at one current.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Level {
+    /// Current in A; `None` where it is not known, for a device with one level.
+    pub current: Option<f64>,
+    /// Values in the order of [`Model::parameters`].
+    pub values: Vec<f64>,
+}
+
+/// A model with levels, sorted by current.
+#[derive(Debug)]
+pub struct Device {
+    model: Model,
+    levels: Vec<Level>,
+}
+
+impl Device {
+    /// Check and sort the levels.
+    ///
+    /// # Errors
+    /// No level, a wrong number of values, a value that is not finite or not admissible, two levels
+    /// at one current, or several levels of which one has no current.
+    pub fn new(model: Model, mut levels: Vec<Level>) -> Result<Self> {
+        if levels.is_empty() {
+            return Err(Error::setting("levels", 0, "at least one level of parameters"));
+        }
+        if levels.len() > 1 && levels.iter().any(|level| level.current.is_none_or(|i| !i.is_finite())) {
+            return Err(Error::setting(
+                "current of a level",
+                "missing",
+                "a number for each of several levels",
+            ));
+        }
+        let parameters = model.parameters(&Extent::UNIT);
+        for level in &levels {
+            if level.values.len() != parameters.len() {
+                return Err(Error::setting(
+                    format!("number of parameters of {}", model.name()),
+                    level.values.len(),
+                    format!("{} values", parameters.len()),
+                ));
+            }
+            for (p, value) in parameters.iter().zip(&level.values) {
+                if !value.is_finite() || *value < p.smallest || *value > p.largest {
+                    let wanted = format!("a finite number from {} to {}", p.smallest, p.largest);
+                    return Err(Error::setting(p.name.as_str(), value, wanted));
+                }
+            }
+        }
+        levels.sort_by(|a, b| a.current.unwrap_or(0.0).total_cmp(&b.current.unwrap_or(0.0)));
+        if let Some(pair) = levels.windows(2).find(|pair| pair[0].current == pair[1].current) {
+            let current = pair[0].current.unwrap_or(0.0);
+            return Err(Error::setting(
+                "current of a level",
+                format!("{current} A twice"),
+                "one level a current",
+            ));
+        }
+        Ok(Self { model, levels })
+    }
+
+    /// Restoring force in N at every sample of a recording, whose own force is not looked at.
+    ///
+    /// # Errors
+    /// Several levels and a recording without current, or samples too far apart for the parameters.
+    pub fn simulate(&self, recording: &Recording) -> Result<Vec<f64>> {
+        let n = recording.len();
+        let (mut force, mut column) = (vec![0.0; n], vec![0.0; n]);
+        if let [level] = self.levels.as_slice() {
+            self.model.add_force(recording, &level.values, None, &mut column, &mut force);
+        } else {
+            let current = currents(recording)?;
+            for (k, level) in self.levels.iter().enumerate() {
+                let weight: Vec<f64> = current.iter().map(|i| self.weight(k, *i)).collect();
+                if weight.iter().any(|w| *w != 0.0) {
+                    self.model.add_force(recording, &level.values, Some(&weight), &mut column, &mut force);
+                }
+            }
+        }
+        match force.iter().position(|f| !f.is_finite()) {
+            None => Ok(force),
+            Some(i) => Err(Error::Recording(format!(
+                "the force of {} cannot be computed at {} s: the samples are too far apart, or the \
+                 displacement too large, for these parameters",
+                self.model.name(),
+                recording.time()[i]
+            ))
+            .in_recording(recording.name())),
+        }
+    }
+
+    /// Share of level `k` in the force at a current.
+    fn weight(&self, k: usize, current: f64) -> f64 {
+        let at = |k: usize| self.levels[k].current.unwrap_or(0.0);
+        let last = self.levels.len() - 1;
+        let current = current.clamp(at(0), at(last));
+        if k > 0 && current < at(k) {
+            ((current - at(k - 1)) / (at(k) - at(k - 1))).max(0.0)
+        } else if k < last && current > at(k) {
+            ((at(k + 1) - current) / (at(k + 1) - at(k))).max(0.0)
+        } else {
+            1.0
+        }
+    }
+}
+
+fn currents(recording: &Recording) -> Result<Vec<f64>> {
+    match recording.current() {
+        Condition::Series(values) if recording.current().varies() => Ok(values.clone()),
+        known => match known.level() {
+            Some(level) => Ok(vec![level; recording.len()]),
+            None => Err(Error::Recording(
+                "the model has several levels of current, and the recording none: set current=VALUE[A]"
+                    .into(),
+            )
+            .in_recording(recording.name())),
+        },
+    }
+}

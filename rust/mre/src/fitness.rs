@@ -1,0 +1,263 @@
+//! Fitness of candidate parameters on recordings: eq. 5 (mean squared error, N^2), of which eq. 9 is
+//! the root; over several recordings together, each with its weight.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use rayon::prelude::*;
+
+use crate::error::{Error, Result};
+use crate::extent::Extent;
+use crate::kernel::{BoucWenRk4, LANES, SinhDirect};
+use crate::law::Law;
+use crate::model::Model;
+use crate::parameter::{Bounds, Parameter};
+use crate::recording::{Recording, mean};
+
+/// How recordings are weighted against each other.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Weights {
+    /// Every sample counts the same: eq. 5 over all samples.
+    Samples,
+    /// Every recording by the inverse of its mean squared force, so that a strong test does not drown
+    /// a weak one.
+    Force,
+    /// The user's own, one a recording.
+    Given(Vec<f64>),
+}
+
+/// Recordings, a model, and the box of its parameters.
+#[derive(Debug)]
+pub struct Problem {
+    recordings: Vec<Arc<Recording>>,
+    model: Model,
+    law: Law,
+    parameters: Vec<Parameter>,
+    bounds: Bounds,
+    weights: Vec<f64>,
+    kernel: Kernel,
+}
+
+#[derive(Debug)]
+enum Kernel {
+    Sinh(Vec<SinhDirect>),
+    BoucWen(Vec<BoucWenRk4>),
+    /// Any model, term by term.
+    Terms,
+}
+
+impl Problem {
+    /// A problem with the default box, in which named parameters have other bounds.
+    ///
+    /// All recordings share the parameters, whatever their current, unless the current changes within
+    /// one of them: then the coefficients are affine in the current.
+    ///
+    /// # Errors
+    /// No recording, a recording without force or with less motion than the model needs, an unknown
+    /// parameter, bounds that are reversed or not admissible, or weights that are not positive.
+    pub fn new(
+        recordings: Vec<Arc<Recording>>,
+        model: Model,
+        bounds: &[(String, f64, f64)],
+        weights: &Weights,
+    ) -> Result<Self> {
+        let extent = Extent::of(&recordings)?;
+        let law = Law::of(&recordings, &model)?;
+        let mut parameters = law.parameters(&model, &extent);
+        for (name, lower, upper) in bounds {
+            let wanted = format!(
+                "one of {}",
+                parameters.iter().map(|p| p.name.as_str()).collect::<Vec<_>>().join(", ")
+            );
+            let Some(p) = parameters.iter_mut().find(|p| p.name == *name) else {
+                return Err(Error::setting("parameter in bounds", format!("'{name}'"), wanted));
+            };
+            (p.lower, p.upper) = (*lower, *upper);
+        }
+        for p in &parameters {
+            if p.lower < p.smallest || p.upper > p.largest {
+                let wanted = format!("within {} and {}", p.smallest, p.largest);
+                return Err(Error::setting(
+                    format!("bound of {}", p.name),
+                    format!("{}:{}", p.lower, p.upper),
+                    wanted,
+                ));
+            }
+        }
+        let names: Vec<String> = parameters.iter().map(|p| p.name.clone()).collect();
+        let pick = |value: fn(&Parameter) -> f64| parameters.iter().map(value).collect();
+        let scale = parameters.iter().map(|p| p.scale).collect();
+        let bounds = Bounds::new(&names, pick(|p| p.lower), pick(|p| p.upper), scale)?;
+        let weights = scale_weights(weights, &recordings)?;
+        let kernel = match (model.name(), &law) {
+            ("sinh", Law::Shared) => Kernel::Sinh(recordings.iter().map(|r| SinhDirect::new(r)).collect()),
+            ("bouc_wen", Law::Shared) => {
+                Kernel::BoucWen(recordings.iter().cloned().map(BoucWenRk4::new).collect())
+            }
+            _ => Kernel::Terms,
+        };
+        Ok(Self { recordings, model, law, parameters, bounds, weights, kernel })
+    }
+
+    /// The recordings.
+    pub fn recordings(&self) -> &[Arc<Recording>] {
+        &self.recordings
+    }
+
+    /// The model.
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// How the parameters depend on the current.
+    pub fn law(&self) -> &Law {
+        &self.law
+    }
+
+    /// Parameters with the bounds in force.
+    pub fn parameters(&self) -> &[Parameter] {
+        &self.parameters
+    }
+
+    /// Weight of the sum of squares of each recording; the fitness is the weighted sum.
+    pub fn weights(&self) -> &[f64] {
+        &self.weights
+    }
+
+    /// The box.
+    pub fn bounds(&self) -> &Bounds {
+        &self.bounds
+    }
+
+    /// Fitness in N^2 of many candidates, one row each, in parallel on the current thread pool.
+    ///
+    /// A candidate that cannot be simulated costs infinity. After `cancel` is set, NaN
+    /// stands for those that were not evaluated. The values do not depend on the number of threads or on the other candidates.
+    pub fn fitness(&self, rows: &[f64], out: &mut [f64], cancel: &AtomicBool) {
+        let d = self.parameters.len();
+        match &self.kernel {
+            Kernel::BoucWen(kernels) => self.by_blocks(kernels, rows, out, cancel),
+            Kernel::Sinh(kernels) => self.one_by_one(rows, out, d, cancel, |_, row| {
+                kernels.iter().zip(&self.weights).map(|(k, w)| w * k.sum_of_squares(row)).sum()
+            }),
+            Kernel::Terms => {
+                self.one_by_one(rows, out, d, cancel, |scratch, row| self.term_by_term(scratch, row));
+            }
+        }
+    }
+
+    fn one_by_one(
+        &self,
+        rows: &[f64],
+        out: &mut [f64],
+        d: usize,
+        cancel: &AtomicBool,
+        cost: impl Fn(&mut Scratch, &[f64]) -> f64 + Sync,
+    ) {
+        let samples: usize = self.recordings.iter().map(|r| r.len()).sum();
+        let grain = (100_000 / samples).max(1);
+        rows.par_chunks(d).zip(out.par_iter_mut()).with_min_len(grain).for_each_init(
+            Scratch::default,
+            |scratch, (row, out)| {
+                *out = if cancel.load(Ordering::Relaxed) {
+                    f64::NAN
+                } else {
+                    finite_or_infinite(cost(scratch, row))
+                };
+            },
+        );
+    }
+
+    fn by_blocks(&self, kernels: &[BoucWenRk4], rows: &[f64], out: &mut [f64], cancel: &AtomicBool) {
+        let d = self.parameters.len();
+        let mut order: Vec<usize> = (0..out.len()).collect();
+        // Alike candidates side by side: a block takes as long as its stiffest lane.
+        order.sort_by(|a, b| BoucWenRk4::cost(&rows[a * d..]).total_cmp(&BoucWenRk4::cost(&rows[b * d..])));
+        let costs: Vec<[f64; LANES]> = order
+            .par_chunks(LANES)
+            .map(|chunk| {
+                let mut total = [0.0; LANES];
+                if cancel.load(Ordering::Relaxed) {
+                    return [f64::NAN; LANES];
+                }
+                let block: Vec<&[f64]> = chunk.iter().map(|i| &rows[i * d..(i + 1) * d]).collect();
+                let mut sums = [0.0; LANES];
+                for (kernel, weight) in kernels.iter().zip(&self.weights) {
+                    kernel.sums_of_squares(&block, &mut sums[..block.len()]);
+                    for (total, sum) in total.iter_mut().zip(&sums) {
+                        *total += weight * sum;
+                    }
+                }
+                total.map(finite_or_infinite)
+            })
+            .collect();
+        for (k, i) in order.into_iter().enumerate() {
+            out[i] = costs[k / LANES][k % LANES];
+        }
+    }
+
+    fn term_by_term(&self, scratch: &mut Scratch, row: &[f64]) -> f64 {
+        let mut total = 0.0;
+        for (recording, weight) in self.recordings.iter().zip(&self.weights) {
+            scratch.resize(recording.len());
+            self.law.add_force(&self.model, recording, row, scratch);
+            let force = recording.force().unwrap_or_default();
+            let errors = recording.scored().map(|i| (force[i] - scratch.force[i]).powi(2));
+            total += weight * errors.sum::<f64>();
+        }
+        total
+    }
+}
+
+/// Buffers of one thread.
+#[derive(Debug, Default)]
+pub struct Scratch {
+    /// Force of the candidate, N.
+    pub force: Vec<f64>,
+    /// Column of one term.
+    pub column: Vec<f64>,
+}
+
+impl Scratch {
+    /// Zero force over `n` samples.
+    pub fn resize(&mut self, n: usize) {
+        self.force.clear();
+        self.force.resize(n, 0.0);
+        self.column.resize(n, 0.0);
+    }
+}
+
+fn finite_or_infinite(cost: f64) -> f64 {
+    if cost.is_nan() { f64::INFINITY } else { cost }
+}
+
+/// Weights such that equal ones give the mean over all samples.
+fn scale_weights(weights: &Weights, recordings: &[Arc<Recording>]) -> Result<Vec<f64>> {
+    let count = |r: &Recording| r.scored().len() as f64;
+    let raw: Vec<f64> = match weights {
+        Weights::Samples => vec![1.0; recordings.len()],
+        Weights::Force => recordings
+            .iter()
+            .map(|r| {
+                let squares: Vec<f64> =
+                    r.force().unwrap_or_default()[r.scored()].iter().map(|f| f * f).collect();
+                1.0 / mean(&squares).max(f64::MIN_POSITIVE)
+            })
+            .collect(),
+        Weights::Given(given) => {
+            if given.len() != recordings.len() {
+                return Err(Error::setting(
+                    "weights",
+                    format!("{} numbers", given.len()),
+                    format!("{}, one a recording", recordings.len()),
+                ));
+            }
+            if let Some(bad) = given.iter().find(|w| !(w.is_finite() && **w > 0.0)) {
+                return Err(Error::setting("weight", bad, "a positive number"));
+            }
+            given.clone()
+        }
+    };
+    let total: f64 = raw.iter().zip(recordings).map(|(w, r)| w * count(r)).sum();
+    Ok(raw.into_iter().map(|w| w / total).collect())
+}

@@ -1,0 +1,16 @@
+//! Fitness kernels: the squared error of many candidates over one recording.
+//!
+//! The code is plain Rust in a form that the compiler spreads over SIMD lanes. It is compiled for
+//! several instruction sets, and the best one for the machine is chosen at run time.
+
+// Lane loops are written as index loops over arrays, inlined into one function per instruction set.
+#![allow(clippy::inline_always, clippy::needless_range_loop)]
+
+mod bouc_wen_rk4;
+mod dispatch;
+pub(crate) mod elementary;
+pub(crate) mod hysteretic;
+mod sinh_direct;
+
+pub(crate) use bouc_wen_rk4::{BoucWenRk4, LANES};
+pub(crate) use sinh_direct::SinhDirect;

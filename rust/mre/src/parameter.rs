@@ -1,0 +1,118 @@
+//! Parameters with names, units and boxes, and the unit box in which the swarms move.
+
+use crate::error::{Error, Result};
+
+/// How a parameter is spread over the unit interval.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scale {
+    /// Evenly.
+    Linear,
+    /// Evenly in the logarithm; for positive parameters of unknown order of magnitude.
+    Log,
+}
+
+/// A parameter of a term: what it is called, what it means, where it may lie.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parameter {
+    /// Symbol, as in the equations.
+    pub name: String,
+    /// Unit, such as `N/mm`; empty for a pure number.
+    pub unit: &'static str,
+    /// Smallest admissible value, whatever the box (`c0 >= 0`).
+    pub smallest: f64,
+    /// Largest admissible value.
+    pub largest: f64,
+    /// Default lower bound, from the recordings.
+    pub lower: f64,
+    /// Default upper bound, from the recordings.
+    pub upper: f64,
+    /// Spread over the unit interval.
+    pub scale: Scale,
+}
+
+/// A box and its map to the unit box.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bounds {
+    lower: Vec<f64>,
+    upper: Vec<f64>,
+    scale: Vec<Scale>,
+}
+
+impl Bounds {
+    /// A box; every parameter is named in the errors.
+    ///
+    /// # Errors
+    /// A bound that is not finite, a lower bound that is not below the upper one, or a logarithmic
+    /// scale that reaches zero.
+    pub fn new(names: &[String], lower: Vec<f64>, upper: Vec<f64>, scale: Vec<Scale>) -> Result<Self> {
+        if lower.is_empty() {
+            return Err(Error::setting("number of parameters", 0, "at least one bound is needed"));
+        }
+        for (i, name) in names.iter().enumerate() {
+            let (low, high) = (lower[i], upper[i]);
+            let wanted = if !low.is_finite() || !high.is_finite() {
+                "both bounds have to be finite numbers"
+            } else if low >= high {
+                "the lower bound has to be below the upper one"
+            } else if scale[i] == Scale::Log && low <= 0.0 {
+                "the lower bound has to be above zero"
+            } else {
+                continue;
+            };
+            return Err(Error::setting(format!("bound of {name}"), format!("{low}:{high}"), wanted));
+        }
+        Ok(Self { lower, upper, scale })
+    }
+
+    /// Lower bounds.
+    pub fn lower(&self) -> &[f64] {
+        &self.lower
+    }
+
+    /// Upper bounds.
+    pub fn upper(&self) -> &[f64] {
+        &self.upper
+    }
+
+    /// Number of parameters.
+    pub fn len(&self) -> usize {
+        self.lower.len()
+    }
+
+    /// Never true.
+    pub fn is_empty(&self) -> bool {
+        self.lower.is_empty()
+    }
+
+    /// From the unit box to the parameters. Never outside the box, and exact at its ends.
+    pub fn to_physical(&self, unit: &[f64], out: &mut [f64]) {
+        for (i, u) in unit.iter().enumerate() {
+            let (low, high) = (self.lower[i], self.upper[i]);
+            let value = match self.scale[i] {
+                Scale::Linear => low + u * (high - low),
+                Scale::Log => low * (high / low).powf(*u),
+            };
+            out[i] = if *u >= 1.0 { high } else { value.clamp(low, high) };
+        }
+    }
+
+    /// From the parameters to the unit box; values outside are moved to the nearest bound.
+    pub fn to_unit(&self, physical: &[f64], out: &mut [f64]) {
+        for (i, value) in physical.iter().enumerate() {
+            let (low, high) = (self.lower[i], self.upper[i]);
+            let value = value.clamp(low, high);
+            out[i] = match self.scale[i] {
+                Scale::Linear => (value - low) / (high - low),
+                Scale::Log => (value / low).ln() / (high / low).ln(),
+            }
+            .clamp(0.0, 1.0);
+        }
+    }
+
+    /// Which parameters lie on a bound, to within a millionth of the unit interval: -1 lower, 1 upper.
+    pub fn on_bound(&self, physical: &[f64]) -> Vec<i8> {
+        let mut unit = vec![0.0; self.len()];
+        self.to_unit(physical, &mut unit);
+        unit.iter().map(|u| if *u < 1e-6 { -1 } else { i8::from(*u > 1.0 - 1e-6) }).collect()
+    }
+}

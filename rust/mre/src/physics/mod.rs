@@ -1,0 +1,41 @@
+//! The physics a model is made of: one file a term.
+//!
+//! A term adds `coefficient * column` to the force. The column is computed from the motion with zero
+//! or more nonlinear shape parameters.
+
+mod bouc_wen;
+mod dashpot;
+mod offset;
+mod sinh;
+mod spring;
+
+pub use bouc_wen::{BoucWen, Classical, STEP as BOUC_WEN_STEP};
+pub use dashpot::Dashpot;
+pub use offset::Offset;
+pub use sinh::Sinh;
+pub use spring::Spring;
+
+use crate::extent::Extent;
+use crate::parameter::Parameter;
+use crate::recording::Recording;
+
+/// A term of a model.
+pub trait Term: Send + Sync {
+    /// The linear coefficient, with its default box.
+    fn coefficient(&self, extent: &Extent) -> Parameter;
+
+    /// The shape parameters, with their default boxes.
+    fn shape(&self, extent: &Extent) -> Vec<Parameter> {
+        let _ = extent;
+        Vec::new()
+    }
+
+    /// True where the coefficient follows the coil current in the default law.
+    fn follows_current(&self) -> bool {
+        true
+    }
+
+    /// Fill `out` with the column of the term. A column that cannot be computed (a step too coarse
+    /// for a stiff candidate) is filled with infinity, never with NaN.
+    fn column(&self, recording: &Recording, shape: &[f64], out: &mut [f64]);
+}

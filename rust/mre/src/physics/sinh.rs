@@ -1,0 +1,51 @@
+//! Strain stiffening: `F = alpha sinh(beta x)`.
+//!
+//! | symbol | meaning | unit | range |
+//! |---|---|---|---|
+//! | alpha | force scale | N | any |
+//! | beta | displacement scale | 1/mm | > 0 (a negative one is a negative alpha) |
+//!
+//! Source: Yu, Li and Li, ISARC 2014, eq. 3 and 4.
+//! Known limit: for `beta x` below 1 only `k0 + alpha beta` and `alpha beta^3` are determined.
+
+use super::Term;
+use crate::extent::Extent;
+use crate::kernel::elementary;
+use crate::parameter::{Parameter, Scale};
+use crate::recording::Recording;
+
+/// Hyperbolic-sine spring.
+#[derive(Debug, Clone, Copy)]
+pub struct Sinh;
+
+impl Term for Sinh {
+    fn coefficient(&self, extent: &Extent) -> Parameter {
+        Parameter {
+            name: "alpha".into(),
+            unit: "N",
+            smallest: f64::NEG_INFINITY,
+            largest: f64::INFINITY,
+            lower: if extent.softens { -2.0 * extent.force } else { 0.0 },
+            upper: if extent.softens { 0.0 } else { 2.0 * extent.force },
+            scale: Scale::Linear,
+        }
+    }
+
+    fn shape(&self, extent: &Extent) -> Vec<Parameter> {
+        vec![Parameter {
+            name: "beta".into(),
+            unit: "1/mm",
+            smallest: 0.0,
+            largest: f64::INFINITY,
+            lower: 0.05 / extent.displacement,
+            upper: 3.0 / extent.displacement,
+            scale: Scale::Linear,
+        }]
+    }
+
+    fn column(&self, recording: &Recording, shape: &[f64], out: &mut [f64]) {
+        for (value, x) in out.iter_mut().zip(recording.displacement()) {
+            *value = elementary::sinh(shape[0] * x);
+        }
+    }
+}

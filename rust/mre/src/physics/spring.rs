@@ -1,0 +1,38 @@
+//! Spring: `F = k x`.
+//!
+//! | symbol | meaning | unit | range |
+//! |---|---|---|---|
+//! | k0, kx | stiffness | N/mm | >= 0 |
+//!
+//! Source: Yu, Li and Li, ISARC 2014, eq. 1 and 3.
+//! Known limit: inertia at one frequency and a constant vertical load hide in it.
+
+use super::Term;
+use crate::extent::Extent;
+use crate::parameter::{Parameter, Scale};
+use crate::recording::Recording;
+
+/// Linear stiffness under the name it has in its model.
+#[derive(Debug, Clone, Copy)]
+pub struct Spring {
+    /// `k0`, or `kx` beside a hysteretic spring.
+    pub name: &'static str,
+}
+
+impl Term for Spring {
+    fn coefficient(&self, extent: &Extent) -> Parameter {
+        Parameter {
+            name: self.name.into(),
+            unit: "N/mm",
+            smallest: 0.0,
+            largest: f64::INFINITY,
+            lower: 0.0,
+            upper: 1.5 * extent.force / extent.displacement,
+            scale: Scale::Linear,
+        }
+    }
+
+    fn column(&self, recording: &Recording, _shape: &[f64], out: &mut [f64]) {
+        out.copy_from_slice(recording.displacement());
+    }
+}

@@ -1,0 +1,64 @@
+//! The bulletin board: the best point ever evaluated, and the history of an optimisation.
+
+/// The best point ever told, and how many were told.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bulletin {
+    /// Best point in the unit box.
+    pub position: Vec<f64>,
+    /// Its cost; infinite while no finite cost was told.
+    pub cost: f64,
+    /// Points told.
+    pub evaluations: u64,
+    /// Points that cost infinity.
+    pub failures: u64,
+}
+
+impl Bulletin {
+    pub(super) fn new(dimension: usize) -> Self {
+        Self { position: vec![0.5; dimension], cost: f64::INFINITY, evaluations: 0, failures: 0 }
+    }
+
+    /// Note points and their costs; the first of equals stays. NaN marks a point that was not evaluated.
+    pub(super) fn note(&mut self, points: &[f64], costs: &[f64]) {
+        let d = self.position.len();
+        for (point, cost) in points.chunks_exact(d).zip(costs) {
+            if cost.is_nan() {
+                continue;
+            }
+            self.evaluations += 1;
+            if !cost.is_finite() {
+                self.failures += 1;
+            } else if *cost < self.cost {
+                self.cost = *cost;
+                self.position.copy_from_slice(point);
+            }
+        }
+    }
+}
+
+/// One entry an iteration, the initial swarm first.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct History {
+    /// Best cost so far.
+    pub best: Vec<f64>,
+    /// Mean cost of the swarm where it stands, over its finite costs.
+    pub mean: Vec<f64>,
+    /// Evaluations so far.
+    pub evaluations: Vec<u64>,
+    /// Visual range of the fish; inertia weight of the particles.
+    pub range: Vec<f64>,
+    /// Step of the fish; largest speed of the particles.
+    pub step: Vec<f64>,
+}
+
+impl History {
+    pub(super) fn record(&mut self, bulletin: &Bulletin, costs: &[f64], range: f64, step: f64) {
+        let (sum, count) =
+            costs.iter().filter(|c| c.is_finite()).fold((0.0, 0_u32), |(sum, count), c| (sum + c, count + 1));
+        self.best.push(bulletin.cost);
+        self.mean.push(if count > 0 { sum / f64::from(count) } else { f64::INFINITY });
+        self.evaluations.push(bulletin.evaluations);
+        self.range.push(range);
+        self.step.push(step);
+    }
+}

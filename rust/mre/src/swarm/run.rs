@@ -1,0 +1,119 @@
+//! The loop of ask, evaluate, tell, with budgets and a monitor.
+
+use std::time::{Duration, Instant};
+
+use super::Swarm;
+use crate::error::{Error, Result};
+
+/// When to stop before the last iteration.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Budget {
+    /// Most evaluations; kept to the last one.
+    pub evaluations: Option<u64>,
+    /// Most time; checked between generations.
+    pub time: Option<Duration>,
+    /// Cost that is good enough.
+    pub target: Option<f64>,
+}
+
+impl Budget {
+    /// Check the limits.
+    ///
+    /// # Errors
+    /// A budget of nothing, or a target that is not a number.
+    pub fn check(&self) -> Result<()> {
+        if self.evaluations == Some(0) {
+            return Err(Error::setting("max_evaluations", 0, "a whole number of at least 1"));
+        }
+        if self.time == Some(Duration::ZERO) {
+            return Err(Error::setting("time_limit", 0, "a number of seconds above 0"));
+        }
+        match self.target {
+            Some(target) if target.is_nan() => Err(Error::setting("target", target, "a number")),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Why an optimisation stopped.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StopReason {
+    /// All iterations are done.
+    Iterations,
+    /// The budget of evaluations is used up.
+    Evaluations,
+    /// The time is used up.
+    Time,
+    /// The target is reached.
+    Target,
+    /// The monitor asked to stop.
+    Interrupted,
+}
+
+/// Where an optimisation stands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Progress {
+    /// Iterations finished.
+    pub iteration: usize,
+    /// Points evaluated.
+    pub evaluations: u64,
+    /// Best cost so far.
+    pub best: f64,
+}
+
+/// Watches an optimisation between generations.
+pub trait Monitor {
+    /// False to stop.
+    fn go_on(&mut self, progress: Progress) -> bool;
+}
+
+impl<F: FnMut(Progress) -> bool> Monitor for F {
+    fn go_on(&mut self, progress: Progress) -> bool {
+        self(progress)
+    }
+}
+
+/// Drive a swarm to its end or to the end of a budget. `evaluate` fills in the costs of points of the
+/// unit box, one row each.
+pub fn run(
+    swarm: &mut dyn Swarm,
+    evaluate: &mut dyn FnMut(&[f64], &mut [f64]),
+    dimension: usize,
+    budget: &Budget,
+    monitor: &mut dyn Monitor,
+) -> StopReason {
+    let started = Instant::now();
+    let mut costs = Vec::new();
+    while !swarm.finished() {
+        let rows = swarm.ask();
+        let wanted = rows.len() / dimension;
+        let left = budget.evaluations.map_or(u64::MAX, |most| most - swarm.bulletin().evaluations);
+        let count = wanted.min(usize::try_from(left).unwrap_or(usize::MAX));
+        costs.clear();
+        costs.resize(count, f64::INFINITY);
+        evaluate(&rows[..count * dimension], &mut costs);
+        let interrupted = !monitor.go_on(progress(swarm));
+        if interrupted || count < wanted {
+            swarm.tell_some(&costs);
+            return if interrupted { StopReason::Interrupted } else { StopReason::Evaluations };
+        }
+        swarm.tell(&costs);
+        if budget.target.is_some_and(|target| swarm.bulletin().cost <= target) {
+            return StopReason::Target;
+        }
+        if budget.time.is_some_and(|most| started.elapsed() >= most) {
+            return StopReason::Time;
+        }
+    }
+    monitor.go_on(progress(swarm));
+    StopReason::Iterations
+}
+
+fn progress(swarm: &dyn Swarm) -> Progress {
+    let bulletin = swarm.bulletin();
+    Progress {
+        iteration: swarm.history().best.len().saturating_sub(1),
+        evaluations: bulletin.evaluations,
+        best: bulletin.cost,
+    }
+}

@@ -1,0 +1,126 @@
+"""What is said about a file that cannot be read: one line with file, place, value and what was wanted."""
+
+from pathlib import Path
+
+import mre_core
+import pytest
+
+HEADER = "time_s,displacement_mm,force_N"
+N = 12
+GOOD = [f"{0.01 * i!r},{i % 5},{100.0 - i}" for i in range(N)]
+
+# Each: the whole file, the options, and pieces of the one line it earns behind "<path>: ".
+BAD: dict[str, tuple[bytes | list[str], dict[str, object], list[str]]] = {
+    "empty": (b"", {}, ["the file is empty", "wanted a header"]),
+    "blank": (b"\n \n\n", {}, ["the file is empty"]),
+    "comments only": (["# a", "# b"], {}, ["no header and no data"]),
+    "header only": (["# a", HEADER, ""], {}, ["line 2: a header but no data", "wanted rows of numbers"]),
+    "binary": (b"\x89PNG\0\0\1\2", {}, ["is not a text file", "wanted comma-separated UTF-8 text"]),
+    "utf-16": ("time_s".encode("utf-16"), {}, ["is UTF-16 text"]),
+    "latin-1": (b"# a\nt [s],T [\xb0C]\n", {}, ["line 2: byte 0xb0 is not UTF-8"]),
+    "latin-1 bom": (b"\xef\xbb\xbf# a\nT [\xb0C]\n", {}, ["line 2: byte 0xb0 is not UTF-8"]),
+    "semicolons": (["time_s;force_N", "0;1"], {}, ["line 1: found semicolons", "wanted commas"]),
+    "tabs": (["time_s\tforce_N", "0\t1"], {}, ["line 1: found tabs"]),
+    "no header": (GOOD, {}, ["line 1: found numbers only, wanted a header"]),
+    "duplicate": ([HEADER + ",force_N", *GOOD], {}, ["line 1: header has force_N more than once"]),
+    "quote in header": (['"time_s,force_N', *GOOD], {}, ["line 1: header cannot be read"]),
+    "text": (
+        ["# x", HEADER, "", *GOOD[:2], "0.02,1,abc"],
+        {},
+        ["line 6, column 'force_N': found 'abc'", "a number"],
+    ),
+    "units row": ([HEADER, "s,mm,N", *GOOD], {}, ["line 2, column 'time_s': found 's', wanted a number"]),
+    "late comment": (
+        [HEADER, *GOOD[:2], "# pause", *GOOD[2:]],
+        {},
+        ["line 4, column 'time_s': found '# pause'"],
+    ),
+    "empty cell": (
+        [HEADER, *GOOD[:3], "0.05,,1"],
+        {},
+        ["line 5, column 'displacement_mm': found an empty cell"],
+    ),
+    "short row": ([HEADER, *GOOD[:3], "0.05,1"], {}, ["line 5, column 'force_N': found an empty cell"]),
+    "nan": ([HEADER, *GOOD[:3], "0.05,NaN,1"], {}, ["line 5", "found 'NaN', wanted a finite number"]),
+    "inf": ([HEADER, *GOOD[:3], "0.05,1,-inf"], {}, ["line 5", "found '-inf', wanted a finite number"]),
+    "overflow": ([HEADER, *GOOD[:3], "0.05,1,1e999"], {}, ["found '1e999', wanted a finite number"]),
+    "hex": ([HEADER, *GOOD[:3], "0.05,1,0x1p3"], {}, ["found '0x1p3', wanted a number"]),
+    "underscore": ([HEADER, *GOOD[:3], "0.05,1,1_0"], {}, ["found '1_0', wanted a number"]),
+    "truth": ([HEADER, *GOOD[:3], "0.05,1,True"], {}, ["found 'True', wanted a number"]),
+    "long text": ([HEADER, "0,1," + "z" * 500], {}, ["found 'zzzz", "..., wanted a number"]),
+    "decimal commas": ([HEADER, "0,0,1,5,2,5"], {}, ["line 2: found 6 fields, wanted 3", "decimal point"]),
+    "ragged": ([HEADER, *GOOD[:4], GOOD[4] + ",9"], {}, ["line 6: found 4 fields, wanted 3"]),
+    "quote": ([HEADER, *GOOD[:4], '0.5,1,"2'], {}, ["line 6: row cannot be read"]),
+    "line behind quoted lines": (
+        [HEADER + ",note", GOOD[0] + ',"one\ntwo\nthree"', "", "0.01,1,x,y"],
+        {},
+        ["line 6, column 'force_N': found 'x'"],
+    ),
+    "repeated time": (
+        [HEADER, "", *GOOD[:3], GOOD[2]],
+        {},
+        ["line 6, column 'time_s'", "repeated: 0.02 after 0.02"],
+    ),
+    "backward time": (
+        [HEADER, *GOOD[:3], GOOD[0]],
+        {},
+        ["line 5, column 'time_s'", "backward: 0.0 after 0.02"],
+    ),
+    "few samples": ([HEADER, *GOOD[:3]], {}, ["3 samples"]),
+    "still": ([HEADER, *(f"{i},1,{i}" for i in range(N))], {}, ["displacement is 1 mm throughout"]),
+    "role missing": ([HEADER.replace("force_N", "F"), *GOOD], {}, ["no column for force among time_s"]),
+    "bad map": ([HEADER, *GOOD], {"map": {"force": "farce_N"}}, ["'farce_N'", "nearest: force_N"]),
+    "bad unit": ([HEADER, *GOOD], {"map": {"force": "force_N[furlong]"}}, ["unit 'furlong'", "force", "kN"]),
+    "other condition": (
+        [HEADER, *GOOD],
+        {"humidity": 3},
+        ["'humidity' is no condition", "current or temperature"],
+    ),
+    "condition text": ([HEADER, *GOOD], {"current": "much"}, ["current is 'much'", "a finite number in A"]),
+    "condition nan": ([HEADER, *GOOD], {"temperature": float("nan")}, ["temperature is nan", "degC"]),
+    "condition bool": ([HEADER, *GOOD], {"current": True}, ["current is True"]),
+    "condition unit": ([HEADER, *GOOD], {"current": "5[mm]"}, ["'mm' is a unit of displacement", "mA"]),
+    "name": (
+        [HEADER, *GOOD],
+        {"name_pattern": "{current}A"},
+        ["name 'a' does not match the pattern '{current}A'"],
+    ),
+}
+
+
+@pytest.mark.parametrize("case", BAD)
+def test_bad_input_earns_one_line(tmp_path: Path, case: str) -> None:
+    content, options, pieces = BAD[case]
+    path = tmp_path / "a.csv"
+    path.write_bytes(content if isinstance(content, bytes) else ("\n".join(content) + "\n").encode())
+    with pytest.raises(mre_core.InputError) as caught:
+        mre_core.load(path, **options)  # type: ignore[arg-type]
+    text = str(caught.value)
+    assert text.startswith(f"{path}: ")
+    assert "\n" not in text
+    assert len(text) < 400 + len(str(path))
+    for piece in pieces:
+        assert piece in text.removeprefix(f"{path}: ")
+    assert isinstance(caught.value, mre_core.MreError)
+    assert isinstance(caught.value, ValueError)
+
+
+def test_error_carries_its_place(tmp_path: Path) -> None:
+    path = tmp_path / "a.csv"
+    path.write_text("\n".join([HEADER, *GOOD[:9], "0.09,1,abc"]))
+    with pytest.raises(mre_core.InputError) as caught:
+        mre_core.load(path)
+    error = caught.value
+    place = (error.file, error.line, error.column, error.value, error.wanted)
+    assert place == (str(path), 11, "force_N", "abc", "a number")
+    assert str(error) == f"{path}: line 11, column 'force_N': found 'abc', wanted a number"
+
+
+def test_missing_file_and_folder(tmp_path: Path) -> None:
+    with pytest.raises(mre_core.InputError, match=r"b\.csv: there is no such file$"):
+        mre_core.load(tmp_path / "b.csv")
+    with pytest.raises(mre_core.InputError) as caught:
+        mre_core.load(tmp_path)
+    assert (
+        str(caught.value) == f"{tmp_path}: is a folder, wanted the files in it, such as {tmp_path / '*.csv'}"
+    )
