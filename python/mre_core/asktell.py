@@ -6,9 +6,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import swarms
-from ._core import Swarm
-from .errors import InputError
-from .results import SwarmResult
 
 
 class AskTell:

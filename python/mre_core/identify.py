@@ -1,7 +1,7 @@
 """From recordings to an identified model."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
 import numpy as np
@@ -119,7 +119,7 @@ def identify(
     seed = draw_seed(seed)
     levels: list[Level] = []
     runs = []
-    for i, ((current, members), problem) in enumerate(zip(groups, problems, strict=True)):
+    for i, ((current, _), problem) in enumerate(zip(groups, problems, strict=True)):
         if on_level is not None:
             on_level(i, len(groups), current)
         start = _start(model, problem, current) if isinstance(model, Model) else None
@@ -192,7 +192,7 @@ def _tested(recordings: Sequence[Recording]) -> dict[str, float]:
 
 
 def _start(model: Model, problem: Problem, current: float | None) -> list[float]:
-    """Starting values: the level of a model that is nearest to the current, under the problem's names."""
+    """Take starting values from the level of a model that is nearest to the current."""
 
     def nearest(wanted: float | None) -> Level:
         return min(model.levels, key=lambda level: abs((level.current or 0.0) - (wanted or 0.0)))
@@ -203,3 +203,34 @@ def _start(model: Model, problem: Problem, current: float | None) -> list[float]
         level = nearest(float(at.removesuffix(" A)")) if at else current)
         start.append(float(level.parameters[symbol]))
     return start
+
+
+def describe(found: Identification) -> dict[str, Any]:
+    """Content of ``identification.json``: runs with their history, and the fit of every recording."""
+    runs = []
+    for run in found.runs:
+        runs.append(
+            {
+                "algorithm": run.algorithm,
+                "parameters": [asdict(parameter) for parameter in run.parameters],
+                "fitness": run.fitness,
+                "unit": run.unit,
+                "rms_N": run.rms,
+                "reason": str(run.reason),
+                "iterations": run.n_iterations,
+                "evaluations": run.n_evaluations,
+                "failures": run.n_failures,
+                "behaviours": dict(run.behaviours),
+                "settings": dict(run.settings),
+                "history": {name: run.history[name].tolist() for name in run.history.dtype.names or ()},
+            }
+        )
+    return {
+        "schema": "mre-core/identification/1",
+        "model": found.model.name,
+        "optimizer": found.optimizer,
+        "seed": found.seed,
+        "interrupted": found.interrupted,
+        "runs": runs,
+        "fits": [asdict(fit) for fit in found.fits],
+    }

@@ -45,7 +45,7 @@ def load(
         number, where ``0x5`` is 0.5; ``current`` and ``temperature`` become conditions, in the unit
         written behind the field (else A, degC).
     require_force : bool
-        False also accepts a file without force, for a simulation.
+        False leaves the force unread, for a simulation.
     **conditions : float or str
         ``current`` (A) or ``temperature`` (degC) of the whole recording; a text may carry a unit, as
         ``'500[mA]'``. They win over the file name, and both win over a column.
@@ -71,7 +71,8 @@ def load(
     fixed = conditions_in_name(path.stem, name_pattern, file=file) if name_pattern is not None else {}
     fixed |= read_conditions(conditions, file=file)
     source = open_csv(path)
-    columns = find_columns(source.headers, map, require_force=require_force, fixed=fixed, file=file)
+    known = _known(fixed, require_force)
+    columns = find_columns(source.headers, map, require_force=require_force, fixed=known, file=file)
     if message := assumption(columns.values(), file):
         warnings.warn(message, UnitAssumedWarning, stacklevel=2)
     values = read_numbers(source, [column.header for column in columns.values()])
@@ -101,7 +102,7 @@ def from_dataframe(
     name : str
         Name of the recording.
     require_force : bool
-        False also accepts a frame without force, for a simulation.
+        False leaves the force unread, for a simulation.
     **conditions : float or str
         ``current`` (A) or ``temperature`` (degC) of the whole recording, as in `load`.
 
@@ -123,7 +124,8 @@ def from_dataframe(
     source = f"recording '{name}'" if name else None
     fixed = read_conditions(conditions, file=source)
     headers = frame_headers(df, source)
-    columns = find_columns(list(headers), map, require_force=require_force, fixed=fixed, file=source)
+    known = _known(fixed, require_force)
+    columns = find_columns(list(headers), map, require_force=require_force, fixed=known, file=source)
     if message := assumption(columns.values(), source):
         warnings.warn(message, UnitAssumedWarning, stacklevel=2)
     values = {
@@ -134,6 +136,11 @@ def from_dataframe(
     if row := _standstill(time):
         raise _time_error(time, row, file=source, row=row, column=columns["time"].header)
     return _recording(columns, values, fixed, name, source)
+
+
+def _known(fixed: Mapping[str, float], require_force: bool) -> set[str]:
+    """Roles for which no column is read."""
+    return set(fixed) | (set() if require_force else {"force"})
 
 
 def _standstill(time: "NDArray[np.float64]") -> int:

@@ -121,7 +121,9 @@ def collect(
     bounds = problem.on_bound(x) if problem is not None else _on_bound(x, lower, upper)
     sides = {-1: "lower", 0: None, 1: "upper"}
     columns = swarm.history
-    history = np.rec.fromarrays(list(columns.values()), names=list(columns))
+    history = np.empty(len(columns["best"]), dtype=[(name, c.dtype) for name, c in columns.items()])
+    for column, content in columns.items():
+        history[column] = content
     history.setflags(write=False)
     evaluations, failures = swarm.evaluations
     return SwarmResult(

@@ -225,9 +225,7 @@ def read_box(bounds: Bounds | None) -> Box:
     return names, box[:, 0].copy(), box[:, 1].copy()
 
 
-def make(
-    algorithm: str, bounds: Bounds, seed: int | None, settings: Mapping[str, Any]
-) -> tuple[Swarm, int]:
+def make(algorithm: str, bounds: Bounds, seed: int | None, settings: Mapping[str, Any]) -> tuple[Swarm, int]:
     """Make a swarm for ask and tell, and the seed it got; settings as keywords of the functions above."""
     functions: dict[str, Callable[..., SwarmResult]] = {"mafsa": mafsa, "afsa": afsa, "pso": pso}
     if algorithm not in functions:
@@ -248,7 +246,9 @@ def _complete(algorithm: str, settings: Mapping[str, Any]) -> dict[str, Any]:
     return {**settings, **_FIXED.get(algorithm, {})}
 
 
-def _in_box(algorithm: str, box: Box, seed: int, settings: Mapping[str, Any], start: ArrayLike | None) -> Swarm:
+def _in_box(
+    algorithm: str, box: Box, seed: int, settings: Mapping[str, Any], start: ArrayLike | None
+) -> Swarm:
     names, lower, upper = box
     complete = _complete(algorithm, settings)
     return Swarm(algorithm, complete, seed, lower=lower, upper=upper, names=names, start=start)

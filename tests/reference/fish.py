@@ -281,7 +281,7 @@ class FishSwarm:
         return clamp(self.X[i] + scope * (2.0 * u - 1.0))
 
     def towards(self, i: int, target: Array) -> Array:
-        x = self.X[i]
+        x: Array = self.X[i]
         dist = distance(target, x)
         if dist == 0.0:
             self.met += 1

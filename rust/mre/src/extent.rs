@@ -13,6 +13,8 @@ use crate::recording::Recording;
 pub struct Extent {
     /// Largest absolute displacement, mm.
     pub displacement: f64,
+    /// Largest absolute displacement of the recording that moves least, mm.
+    pub shortest: f64,
     /// Largest speed, mm/s.
     pub velocity: f64,
     /// Largest absolute force among the scored samples, N.
@@ -26,7 +28,7 @@ pub struct Extent {
 impl Extent {
     /// For questions about parameters that do not depend on recordings.
     pub const UNIT: Self =
-        Self { displacement: 1.0, velocity: 1.0, force: 1.0, mean_force: 0.0, softens: false };
+        Self { displacement: 1.0, shortest: 1.0, velocity: 1.0, force: 1.0, mean_force: 0.0, softens: false };
 
     /// Sizes of recordings.
     ///
@@ -38,11 +40,13 @@ impl Extent {
         }
         let farthest = |values: &[f64], so_far: f64| values.iter().fold(so_far, |far, v| v.abs().max(far));
         let mut extent =
-            Self { displacement: 0.0, velocity: 0.0, force: 0.0, mean_force: 0.0, softens: false };
+            Self { displacement: 0.0, shortest: f64::INFINITY, velocity: 0.0, force: 0.0, ..Self::UNIT };
         let mut count = 0.0;
         for recording in recordings {
             let scored = scored_force(recording)?;
-            extent.displacement = farthest(recording.displacement(), extent.displacement);
+            let stroke = farthest(recording.displacement(), 0.0);
+            extent.displacement = extent.displacement.max(stroke);
+            extent.shortest = extent.shortest.min(stroke);
             extent.velocity = farthest(recording.velocity(), extent.velocity);
             extent.force = farthest(scored, extent.force);
             extent.mean_force += scored.iter().sum::<f64>();

@@ -55,8 +55,20 @@ pub(crate) fn sinh(x: f64) -> f64 {
     if x.abs() <= 700.0 { sinh_lane::<false>(x) } else { x.sinh() }
 }
 
-/// `x^n` for x in [0, 2] and n in [0, 1000]: relative error below 1e-13 where the result is normal;
-/// results below 1e-300 may be 0 or 1e-300.
+/// 1 / d for d in [1.7, 2.5]: a line and three steps of Newton, cheaper than a division.
+#[inline(always)]
+fn reciprocal<const FUSED: bool>(d: f64) -> f64 {
+    let mut y = fma::<FUSED>(d, -0.242_640_687, 0.994_821_5);
+    for _ in 0..3 {
+        y = fma::<FUSED>(y, fma::<FUSED>(-d, y, 1.0), y);
+    }
+    y
+}
+
+/// `x^n` for x in [0, 2] and n in [0, 1000]: relative error below 1e-13 for n up to 10 where the result
+/// is normal; results below 1e-300 may be 0 or 1e-300.
+///
+/// The polynomials are evaluated in pairs (Estrin): the lanes wait for each other's results otherwise.
 #[inline(always)]
 pub(super) fn power_lane<const FUSED: bool>(x: f64, n: f64) -> f64 {
     // x = m 2^e with m in [sqrt(1/2), sqrt(2)).
@@ -66,47 +78,27 @@ pub(super) fn power_lane<const FUSED: bool>(x: f64, n: f64) -> f64 {
     // The exponent as a number: its 12 bits placed in the mantissa of 2^52 (biased to stay positive).
     let biased = (shift >> 52).wrapping_add(0x800) & 0xfff;
     let e = f64::from_bits(0x4330_0000_0000_0000 | biased) - 4_503_599_627_372_544.0;
-    // ln m = 2 artanh t.
-    let t = (m - 1.0) / (m + 1.0);
+    // log2 m = 2 / ln 2 artanh t.
+    let t = (m - 1.0) * reciprocal::<FUSED>(m + 1.0);
     let q = t * t;
-    let mut p = 2.0 / 21.0;
-    for c in [
-        2.0 / 19.0,
-        2.0 / 17.0,
-        2.0 / 15.0,
-        2.0 / 13.0,
-        2.0 / 11.0,
-        2.0 / 9.0,
-        2.0 / 7.0,
-        0.4,
-        2.0 / 3.0,
-        2.0,
-    ] {
-        p = fma::<FUSED>(p, q, c);
-    }
-    let log2 = fma::<FUSED>(p * t, std::f64::consts::LOG2_E, e);
+    let c = [1.0, 1.0 / 3.0, 0.2, 1.0 / 7.0, 1.0 / 9.0, 1.0 / 11.0, 1.0 / 13.0, 1.0 / 15.0, 1.0 / 17.0];
+    let q2 = q * q;
+    let q4 = q2 * q2;
+    let low = fma::<FUSED>(fma::<FUSED>(c[3], q, c[2]), q2, fma::<FUSED>(c[1], q, c[0]));
+    let high = fma::<FUSED>(fma::<FUSED>(c[7], q, c[6]), q2, fma::<FUSED>(c[5], q, c[4]));
+    let artanh = t * fma::<FUSED>(fma::<FUSED>(c[8], q4, high), q4, low);
+    let log2 = fma::<FUSED>(artanh, 2.0 * std::f64::consts::LOG2_E, e);
     let y = (n * log2).max(-1000.0);
     let (k, bits) = round(y);
     let r = (y - k) * std::f64::consts::LN_2;
-    let mut s = 1.0 / 6_227_020_800.0;
-    for c in [
-        1.0 / 479_001_600.0,
-        1.0 / 39_916_800.0,
-        1.0 / 3_628_800.0,
-        1.0 / 362_880.0,
-        1.0 / 40_320.0,
-        1.0 / 5_040.0,
-        1.0 / 720.0,
-        1.0 / 120.0,
-        1.0 / 24.0,
-        1.0 / 6.0,
-        0.5,
-        1.0,
-        1.0,
-    ] {
-        s = fma::<FUSED>(s, r, c);
-    }
-    s * power_of_two(bits)
+    let r2 = r * r;
+    let r4 = r2 * r2;
+    let pair = |odd: f64, even: f64| fma::<FUSED>(odd, r, even);
+    let low = fma::<FUSED>(pair(1.0 / 6.0, 0.5), r2, pair(1.0, 1.0));
+    let middle = fma::<FUSED>(pair(1.0 / 5_040.0, 1.0 / 720.0), r2, pair(1.0 / 120.0, 1.0 / 24.0));
+    let high =
+        fma::<FUSED>(pair(1.0 / 39_916_800.0, 1.0 / 3_628_800.0), r2, pair(1.0 / 362_880.0, 1.0 / 40_320.0));
+    fma::<FUSED>(fma::<FUSED>(high, r4, middle), r4, low) * power_of_two(bits)
 }
 
 #[cfg(test)]

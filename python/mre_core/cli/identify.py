@@ -1,0 +1,110 @@
+"""``mre-core identify``."""
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from .arguments import common_options, load_all, read_bounds, read_interval, unique_names
+
+
+@click.command()
+@click.argument("recordings", nargs=-1, required=True)
+@click.option(
+    "--model", required=True, metavar="MODEL", help="kelvin_voigt, sinh, bouc_wen, or a model.json."
+)
+@click.option(
+    "--optimizer", default="mafsa", show_default=True, metavar="mafsa|afsa|pso", help="Which swarm."
+)
+@click.option("--out", type=click.Path(path_type=Path), metavar="DIR", help="Folder for the results.")
+@click.option("--seed", type=int, help="Same seed, same result.")
+@click.option("--bounds", multiple=True, metavar="NAME=LOWER:UPPER", help="Bounds that replace default ones.")
+@click.option("--weights", metavar="samples|force", help="Count samples, or recordings by their force.")
+@click.option("--cut", metavar="START:STOP", help="Keep this part of every recording, in s.")
+@click.option("--exclude", metavar="PARTS", help="start_transient, stop_transient or both, with a comma.")
+@click.option("--fish", type=int, default=50, show_default=True, help="Fish or particles.")
+@click.option("--iterations", type=int, default=300, show_default=True, help="Iterations.")
+@click.option("--max-evaluations", type=int, help="Budget of evaluations for each current.")
+@click.option("--time-limit", type=float, metavar="S", help="Budget of seconds for each current.")
+@click.option("--threads", type=int, help="Threads; all cores by default.")
+@click.option("--no-figures", is_flag=True, help="Write no figures.")
+@click.option("--quiet", is_flag=True, help="No progress, no tables.")
+@common_options
+def identify(
+    recordings: tuple[str, ...],
+    model: str,
+    optimizer: str,
+    out: Path | None,
+    cut: str | None,
+    exclude: str | None,
+    bounds: tuple[str, ...],
+    fish: int,
+    iterations: int,
+    no_figures: bool,
+    quiet: bool,
+    mapping: tuple[str, ...],
+    conditions: tuple[str, ...],
+    name_pattern: str | None,
+    **options: Any,
+) -> int:
+    r"""Identify a model from RECORDINGS (CSV files).
+
+    Recordings at one constant current share their parameters; each current gets its own.
+
+    \b
+    Examples:
+      mre-core identify test.csv --model sinh --out result
+      mre-core identify *.csv --model bouc_wen --name-pattern '{amplitude}mm{frequency}Hz{current}A' \\
+          --exclude start_transient,stop_transient --out result
+      mre-core identify building.csv --map 'force=base_shear_kN[kN]' displacement=isolator_disp_m \\
+          --model sinh --optimizer pso --out result
+    """
+    from contextlib import nullcontext
+
+    from ..identify import identify as run
+    from ..model import Model
+    from ..output import Stage, staged
+    from .show import print_identification, progress
+
+    loaded = load_all(recordings, mapping, conditions, name_pattern)
+    if cut is not None:
+        start, stop = read_interval(cut)
+        loaded = [recording.cut(start, stop) for recording in loaded]
+    if exclude is not None:
+        parts = [part.strip() for part in exclude.split(",")]
+        loaded = [recording.exclude(*parts) for recording in loaded]
+    base = Model.load(model) if model.endswith(".json") else model
+    options["n_particles" if optimizer == "pso" else "n_fish"] = fish
+    place = staged(out) if out is not None else nullcontext()
+    with place as stage, progress(iterations, quiet=quiet) as (on_level, on_progress):
+        found = run(
+            loaded,
+            base,
+            optimizer=optimizer,  # type: ignore[arg-type]  # any text: checked there
+            bounds=read_bounds(bounds),
+            on_level=on_level,
+            callback=on_progress,
+            on_interrupt="return",
+            max_iterations=iterations,
+            **options,
+        )
+        if isinstance(stage, Stage):
+            _write(stage, found, loaded, figures=not no_figures)
+    if not quiet:
+        print_identification(found)
+    return 130 if found.interrupted else 0
+
+
+def _write(stage: Any, found: Any, loaded: list[Any], *, figures: bool) -> None:
+    """``model.json``, ``identification.json`` and one figure a recording."""
+    from ..identify import describe
+
+    stage.write_json("model.json", found.model.to_dict() | {"interrupted": found.interrupted})
+    stage.write_json("identification.json", describe(found))
+    if not figures:
+        return
+    from ..plot import plot_fit
+
+    for recording, name in zip(loaded, unique_names([r.name for r in loaded]), strict=True):
+        if any(fit.recording == recording.name for fit in found.fits):
+            plot_fit(found.model, recording).savefig(stage.path(f"fit_{name}.png"), dpi=110)

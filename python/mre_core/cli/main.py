@@ -1,0 +1,73 @@
+"""Entry point: dispatch, exit status, and errors in one line.
+
+Exit status: 0 done, 2 input or options wrong, 130 interrupted, 1 anything else.
+"""
+
+import sys
+import warnings
+from collections.abc import Sequence
+from typing import TextIO
+
+import click
+
+from .. import __version__
+from ..errors import MreError, one_line
+from .arguments import spread
+from .demo import demo
+from .identify import identify
+from .simulate import simulate
+
+
+@click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+@click.version_option(__version__, prog_name="mre-core")
+def cli() -> None:
+    r"""Identify hysteresis models of magnetorheological elastomer isolators and dampers.
+
+    \b
+    Examples:
+      mre-core demo
+      mre-core identify test.csv --model sinh --out result
+      mre-core simulate result/model.json earthquake.csv --out predicted.csv
+    """
+
+
+for command in (identify, simulate, demo):
+    cli.add_command(command)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run a command and return its exit status."""
+    given = list(sys.argv[1:] if arguments is None else arguments)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("default")
+            warnings.showwarning = _show_warning
+            status = cli.main(spread(given), prog_name="mre-core", standalone_mode=False)
+        return status if isinstance(status, int) else 0
+    except click.exceptions.Exit as stop:
+        return stop.exit_code
+    except click.ClickException as error:
+        return _fail(error.format_message(), 2)
+    except MreError as error:
+        return _fail(str(error), 2)
+    except (KeyboardInterrupt, click.Abort):
+        return _fail("interrupted", 130)
+    except BrokenPipeError:  # whoever read the output has seen enough
+        sys.stderr.close()
+        return 1
+
+
+def _fail(message: str, status: int) -> int:
+    print(f"mre-core: {one_line(message)}", file=sys.stderr)
+    return status
+
+
+def _show_warning(
+    message: Warning | str,
+    category: type[Warning],
+    filename: str,
+    lineno: int,
+    file: TextIO | None = None,
+    line: str | None = None,
+) -> None:
+    print(f"mre-core: warning: {one_line(str(message))}", file=sys.stderr)

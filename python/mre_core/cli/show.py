@@ -1,0 +1,114 @@
+"""What a person sees: progress on a terminal, tables on standard output."""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from ..identify import Identification
+
+OnLevel = Callable[[int, int, float | None], None]
+OnProgress = Callable[[int, int, float], None]
+
+
+def console() -> "Console":
+    """Open standard output, as wide as the terminal, or wide enough for a table in a file."""
+    from rich.console import Console
+
+    out = Console(highlight=False)
+    return out if out.is_terminal else Console(highlight=False, width=120)
+
+
+@contextmanager
+def progress(iterations: int, *, quiet: bool) -> Iterator[tuple[OnLevel, OnProgress]]:
+    """Show a bar on standard error while a job runs, if that is a terminal."""
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+
+    err = Console(stderr=True)
+    bar = Progress(
+        TextColumn("{task.description}"),
+        BarColumn(),
+        TextColumn("{task.fields[note]}"),
+        TimeElapsedColumn(),
+        TimeRemainingColumn(),
+        console=err,
+        transient=True,
+        disable=quiet or not err.is_terminal,
+    )
+    task = bar.add_task("identifying", total=iterations, note="")
+
+    def on_level(number: int, count: int, current: float | None) -> None:
+        what = "" if current is None else f" {current:g} A"
+        bar.reset(task, description=f"identifying{what} ({number + 1} of {count})", note="")
+
+    def on_progress(iteration: int, evaluations: int, best: float) -> None:
+        bar.update(task, completed=iteration, note=f"{evaluations} evaluations, rms {best**0.5:.4g} N")
+
+    with bar:
+        yield on_level, on_progress
+
+
+def print_identification(found: "Identification") -> None:
+    """Tables of the parameters and of the fit."""
+    from rich.table import Table
+
+    out = console()
+    for run, level in zip(found.runs, _titles(found), strict=True):
+        table = Table(title=level, title_justify="left", caption_justify="left")
+        for column in ("parameter", "value", "unit", "searched", "note"):
+            table.add_column(column, justify="right" if column == "value" else "left")
+        for p in run.parameters:
+            note = f"on its {p.on_bound} bound: widen it" if p.on_bound else ""
+            table.add_row(p.name, f"{p.value:.6g}", p.unit, f"{p.lower:.4g} to {p.upper:.4g}", note)
+        table.caption = (
+            f"fitness {run.fitness:.6g} {run.unit} (rms {run.rms:.4g} N), {run.n_evaluations} evaluations"
+            f" ({run.n_failures} failed), stopped by {run.reason}, seed {run.seed}"
+        )
+        out.print(table)
+    _print_classical(found, out)
+    table = Table(title="fit", title_justify="left")
+    for column in (
+        "recording",
+        "current / A",
+        "samples",
+        "rms / N",
+        "rms / force rms",
+        "largest error / peak",
+    ):
+        table.add_column(column, justify="left" if column == "recording" else "right")
+    for fit in found.fits:
+        current = "" if fit.current is None else f"{fit.current:g}"
+        shares = (f"{100 * fit.relative_rms:.2f} %", f"{100 * fit.peak_error:.1f} %")
+        table.add_row(fit.recording, current, str(fit.samples), f"{fit.rms:.4g}", *shares)
+    out.print(table)
+
+
+def _titles(found: "Identification") -> list[str]:
+    currents: list[Any] = [level.current for level in found.model.levels]
+    if len(found.runs) != len(currents):  # one run for a law over the current
+        return [f"{found.model.name} by {found.optimizer}, coefficients affine in the current"]
+    return [
+        f"{found.model.name} by {found.optimizer}" + ("" if current is None else f", {current:g} A")
+        for current in currents
+    ]
+
+
+def _print_classical(found: "Identification", out: "Console") -> None:
+    if found.model.name != "bouc_wen":
+        return
+    from rich.table import Table
+
+    from ..model import classical
+
+    table = Table(title="the same in the form of eq. 1 and 2, A fixed at 1", title_justify="left")
+    for column in ("current / A", "k0 / N/mm", "alpha", "A", "beta / mm^-n", "gamma / mm^-n", "n"):
+        table.add_column(column, justify="right")
+    for level in found.model.levels:
+        form = classical(level.parameters)
+        current = "" if level.current is None else f"{level.current:g}"
+        cells = ["-" if value is None else f"{value:.5g}" for value in form.values()]
+        table.add_row(current, *cells)
+    out.print(table)

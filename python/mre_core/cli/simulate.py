@@ -1,0 +1,45 @@
+"""``mre-core simulate``."""
+
+from pathlib import Path
+
+import click
+
+from .arguments import common_options, load_all
+
+
+@click.command()
+@click.argument("model")
+@click.argument("recording")
+@click.option("--out", required=True, type=click.Path(path_type=Path), metavar="FILE", help="CSV to write.")
+@common_options
+def simulate(
+    model: str,
+    recording: str,
+    out: Path,
+    mapping: tuple[str, ...],
+    conditions: tuple[str, ...],
+    name_pattern: str | None,
+) -> None:
+    r"""Predict the force of MODEL (a model.json) over the motion in RECORDING (a CSV file).
+
+    The file gets the columns time_s and force_N, one row for each row of the recording, whose own
+    force is not read.
+
+    \b
+    Example:
+      mre-core simulate result/model.json earthquake.csv --set 'current=1[A]' --out predicted.csv
+    """
+    from ..model import Model
+    from ..model import simulate as run
+    from ..output import write_file
+
+    (motion,) = load_all([recording], mapping, conditions, name_pattern, require_force=False)
+    force = run(Model.load(model), motion)
+
+    def write(path: Path) -> None:
+        rows = (f"{t!r},{f!r}\n" for t, f in zip(motion.time.tolist(), force.tolist(), strict=True))
+        with path.open("w", encoding="utf-8", newline="") as file:
+            file.write("time_s,force_N\n")
+            file.writelines(rows)
+
+    write_file(out, write)

@@ -1,0 +1,106 @@
+"""Results on disk: all files of a job appear together, whole, or not at all."""
+
+import json
+import os
+import shutil
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from .errors import InputError
+
+
+class Stage:
+    """Files of a job, written beside their place and moved there at the end."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self.names: list[str] = []
+
+    def path(self, name: str) -> Path:
+        """Where to write the file that will be called `name`."""
+        self.names.append(name)
+        return self._folder / name
+
+    def write_json(self, name: str, content: Any) -> None:
+        """Write JSON; numbers that are not finite become null."""
+        text = json.dumps(_finite(content), indent=2, ensure_ascii=False, allow_nan=False)
+        self.path(name).write_text(text + "\n", encoding="utf-8")
+
+
+@contextmanager
+def staged(directory: str | os.PathLike[str]) -> Iterator[Stage]:
+    """Prepare a folder for results, and move them there when the block ends well.
+
+    Files of the same names are replaced, others stay. When the block fails, nothing is left behind, a
+    new folder included.
+
+    Raises
+    ------
+    InputError
+        The folder cannot be made or written: said on entry, before the work, or at the end.
+    """
+    target = Path(directory)
+    made: list[Path] = []
+    try:
+        for folder in [*reversed(target.parents), target]:
+            if not folder.exists():
+                folder.mkdir()
+                made.append(folder)
+        work = Path(tempfile.mkdtemp(prefix=".mre-core-", dir=target))
+    except OSError as error:
+        _remove(made)
+        raise _unwritable(target, error) from None
+    stage = Stage(work)
+    try:
+        yield stage
+        for name in stage.names:
+            os.replace(work / name, target / name)
+    except BaseException as error:
+        shutil.rmtree(work, ignore_errors=True)
+        _remove(made)
+        if isinstance(error, OSError):
+            raise _unwritable(target, error) from None
+        raise
+    shutil.rmtree(work, ignore_errors=True)
+
+
+def write_file(path: str | os.PathLike[str], write: Callable[[Path], None]) -> None:
+    """Write one file through a temporary name.
+
+    Raises
+    ------
+    InputError
+        It cannot be written.
+    """
+    target = Path(path)
+    if target.is_dir():
+        raise InputError("is a folder", file=str(target), wanted="the name of a file to write")
+    with staged(target.parent) as stage:
+        write(stage.path(target.name))
+
+
+def _remove(made: list[Path]) -> None:
+    for folder in reversed(made):
+        try:
+            folder.rmdir()
+        except OSError:  # somebody else has put something there
+            break
+
+
+def _unwritable(target: Path, error: OSError) -> InputError:
+    return InputError(
+        f"cannot be written: {error.strerror or error}", file=str(target), wanted="a folder to write to"
+    )
+
+
+def _finite(content: Any) -> Any:
+    if isinstance(content, float):
+        return content if abs(content) < float("inf") else None
+    if isinstance(content, dict):
+        return {key: _finite(value) for key, value in content.items()}
+    if isinstance(content, list | tuple):
+        return [_finite(value) for value in content]
+    return content
