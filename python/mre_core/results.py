@@ -33,6 +33,15 @@ class Parameter:
     upper: float
     on_bound: str | None = None
     """``"lower"`` or ``"upper"`` where the value lies on that bound."""
+    at_limit: bool = False
+    """True where that bound is the limit of what is physically admissible."""
+
+    @property
+    def note(self) -> str:
+        """A remark where the box was active; empty otherwise."""
+        if self.on_bound is None:
+            return ""
+        return "at its physical limit" if self.at_limit else f"on its {self.on_bound} bound: widen it"
 
 
 @dataclass(frozen=True)
@@ -95,8 +104,7 @@ class SwarmResult:
     def __str__(self) -> str:
         rows = [f"{self.algorithm}: fitness {self.fitness:.6g} {self.unit}".rstrip()]
         for p in self.parameters:
-            bound = f"  on its {p.on_bound} bound" if p.on_bound else ""
-            rows.append(f"  {p.name:<12} {p.value:>14.6g} {p.unit}{bound}".rstrip())
+            rows.append(f"  {p.name:<12} {p.value:>14.6g} {p.unit}  {p.note}".rstrip())
         rows.append(
             f"  {self.n_iterations} iterations, {self.n_evaluations} evaluations"
             f" ({self.n_failures} failed), stopped by {self.reason}, seed {self.seed}"
@@ -118,8 +126,16 @@ def collect(
     x, cost = swarm.best
     names, lower, upper = box
     units = problem.units if problem is not None else [""] * len(names)
-    bounds = problem.on_bound(x) if problem is not None else _on_bound(x, lower, upper)
-    sides = {-1: "lower", 0: None, 1: "upper"}
+    free = [(-np.inf, np.inf)] * len(names)
+    sides = problem.on_bound(x) if problem is not None else _on_bound(x, lower, upper)
+    limits = problem.limits if problem is not None else free
+    parameters = []
+    for name, value, unit, low, high, side, limit in zip(
+        names, x.tolist(), units, lower.tolist(), upper.tolist(), sides, limits, strict=True
+    ):
+        on_bound = {-1: "lower", 0: None, 1: "upper"}[side]
+        at_limit = (side < 0 and low == limit[0]) or (side > 0 and high == limit[1])
+        parameters.append(Parameter(name, value, unit, low, high, on_bound, at_limit))
     columns = swarm.history
     history = np.empty(len(columns["best"]), dtype=[(name, c.dtype) for name, c in columns.items()])
     for column, content in columns.items():
@@ -128,18 +144,7 @@ def collect(
     evaluations, failures = swarm.evaluations
     return SwarmResult(
         algorithm=algorithm,
-        parameters=tuple(
-            Parameter(*row)
-            for row in zip(
-                names,
-                x.tolist(),
-                units,
-                lower.tolist(),
-                upper.tolist(),
-                (sides[side] for side in bounds),
-                strict=True,
-            )
-        ),
+        parameters=tuple(parameters),
         fitness=cost,
         unit="N^2" if problem is not None else "",
         reason=reason,

@@ -47,7 +47,7 @@ def identify(
     name_pattern: str | None,
     **options: Any,
 ) -> int:
-    r"""Identify a model from RECORDINGS (CSV files).
+    """Identify a model from RECORDINGS (CSV files).
 
     Recordings at one constant current share their parameters; each current gets its own.
 
@@ -58,7 +58,7 @@ def identify(
           --exclude start_transient,stop_transient --out result
       mre-core identify building.csv --map 'force=base_shear_kN[kN]' displacement=isolator_disp_m \\
           --model sinh --optimizer pso --out result
-    """
+    """  # noqa: D301  # \b keeps the lines
     from contextlib import nullcontext
 
     from ..identify import identify as run

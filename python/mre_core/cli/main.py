@@ -21,14 +21,14 @@ from .simulate import simulate
 @click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
 @click.version_option(__version__, prog_name="mre-core")
 def cli() -> None:
-    r"""Identify hysteresis models of magnetorheological elastomer isolators and dampers.
+    """Identify hysteresis models of magnetorheological elastomer isolators and dampers.
 
     \b
     Examples:
       mre-core demo
       mre-core identify test.csv --model sinh --out result
       mre-core simulate result/model.json earthquake.csv --out predicted.csv
-    """
+    """  # noqa: D301  # \b keeps the lines
 
 
 for command in (identify, simulate, demo):
@@ -46,6 +46,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return status if isinstance(status, int) else 0
     except click.exceptions.Exit as stop:
         return stop.exit_code
+    except click.exceptions.NoArgsIsHelpError as error:
+        print(error.format_message())
+        return 0
     except click.ClickException as error:
         return _fail(error.format_message(), 2)
     except MreError as error:

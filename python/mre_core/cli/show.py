@@ -61,8 +61,7 @@ def print_identification(found: "Identification") -> None:
         for column in ("parameter", "value", "unit", "searched", "note"):
             table.add_column(column, justify="right" if column == "value" else "left")
         for p in run.parameters:
-            note = f"on its {p.on_bound} bound: widen it" if p.on_bound else ""
-            table.add_row(p.name, f"{p.value:.6g}", p.unit, f"{p.lower:.4g} to {p.upper:.4g}", note)
+            table.add_row(p.name, f"{p.value:.6g}", p.unit, f"{p.lower:.4g} to {p.upper:.4g}", p.note)
         table.caption = (
             f"fitness {run.fitness:.6g} {run.unit} (rms {run.rms:.4g} N), {run.n_evaluations} evaluations"
             f" ({run.n_failures} failed), stopped by {run.reason}, seed {run.seed}"

@@ -20,7 +20,7 @@ def simulate(
     conditions: tuple[str, ...],
     name_pattern: str | None,
 ) -> None:
-    r"""Predict the force of MODEL (a model.json) over the motion in RECORDING (a CSV file).
+    """Predict the force of MODEL (a model.json) over the motion in RECORDING (a CSV file).
 
     The file gets the columns time_s and force_N, one row for each row of the recording, whose own
     force is not read.
@@ -28,7 +28,7 @@ def simulate(
     \b
     Example:
       mre-core simulate result/model.json earthquake.csv --set 'current=1[A]' --out predicted.csv
-    """
+    """  # noqa: D301  # \b keeps the lines
     from ..model import Model
     from ..model import simulate as run
     from ..output import write_file

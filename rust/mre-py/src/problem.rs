@@ -79,6 +79,12 @@ impl Problem {
         self.inner.parameters().iter().map(|p| p.unit).collect()
     }
 
+    /// Smallest and largest admissible value of every parameter, whatever the box.
+    #[getter]
+    fn limits(&self) -> Vec<(f64, f64)> {
+        self.inner.parameters().iter().map(|p| (p.smallest, p.largest)).collect()
+    }
+
     #[getter]
     fn lower<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         PyArray1::from_slice(py, self.inner.bounds().lower())

@@ -27,7 +27,8 @@ impl Term for Spring {
             smallest: 0.0,
             largest: f64::INFINITY,
             lower: 0.0,
-            upper: 1.5 * extent.force / extent.displacement,
+            // Beside a softening term the spring alone is steeper than the whole.
+            upper: if extent.softens { 4.0 } else { 1.5 } * extent.force / extent.displacement,
             scale: Scale::Linear,
         }
     }
