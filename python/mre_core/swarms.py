@@ -32,7 +32,7 @@ class RunOptions(TypedDict, total=False):
     """Options that every swarm takes."""
 
     x0: ArrayLike
-    """Where the first fish or particle starts, shape (d,)."""
+    """Where the first fish or particle starts, shape (d,); outside the box: at the nearest bound."""
     max_evaluations: int
     """Most evaluations; kept to the last one."""
     time_limit: float

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
-use mre::swarm::Progress;
+use mre::swarm::{Monitor, Progress};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
 
@@ -27,16 +27,21 @@ impl Link {
         &self.cancel
     }
 
-    /// Note the progress of the job; false when it should end.
-    pub(crate) fn report(&self, progress: Progress) -> bool {
+    fn take(&self) -> Option<Progress> {
+        self.progress.lock().ok().and_then(|mut latest| latest.take())
+    }
+}
+
+impl Monitor for &Link {
+    fn broken_off(&self) -> bool {
+        self.cancel.load(Ordering::Relaxed)
+    }
+
+    fn go_on(&mut self, progress: Progress) -> bool {
         if let Ok(mut latest) = self.progress.lock() {
             *latest = Some(progress);
         }
-        !self.cancel.load(Ordering::Relaxed)
-    }
-
-    fn take(&self) -> Option<Progress> {
-        self.progress.lock().ok().and_then(|mut latest| latest.take())
+        !self.broken_off()
     }
 }
 

@@ -1,41 +1,13 @@
 //! Settings of the swarms from Python dictionaries.
 
-use mre::swarm::{Budget, Crowd, FishSettings, Neighbourhood, PsoSettings, Schedule, Search};
-use pyo3::prelude::*;
 use std::time::Duration;
 
+use mre::swarm::{Budget, Crowd, FishSettings, Neighbourhood, PsoSettings, Schedule, Search};
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
 use crate::error::{setting, to_python};
-
-#[derive(FromPyObject)]
-#[pyo3(from_item_all)]
-#[allow(clippy::struct_field_names)] // the names in Python
-pub(crate) struct Fish {
-    n_fish: i64,
-    max_iterations: i64,
-    try_number: i64,
-    delta: f64,
-    visual: f64,
-    step: f64,
-    visual_min: f64,
-    step_min: f64,
-    p: i64,
-    schedule: String,
-    neighbourhood: String,
-    crowd: String,
-    search: String,
-}
-
-#[derive(FromPyObject)]
-#[pyo3(from_item_all)]
-pub(crate) struct Pso {
-    n_particles: i64,
-    max_iterations: i64,
-    inertia_start: f64,
-    inertia_end: f64,
-    cognitive: f64,
-    social: f64,
-    speed: f64,
-}
 
 fn count(name: &str, value: i64) -> PyResult<usize> {
     // Beyond ten million the swarm itself would not fit.
@@ -52,56 +24,77 @@ fn choose<T: Copy>(name: &str, value: &str, among: &[(&str, T)]) -> PyResult<T> 
     })
 }
 
-impl Fish {
-    pub(crate) fn to_core(&self) -> PyResult<FishSettings> {
-        let (visual_min, step_min) = (self.visual_min, self.step_min);
-        let p = u32::try_from(self.p).map_err(|_| setting("p", self.p, "a whole number from 1 to 30"))?;
-        let settings = FishSettings {
-            fish: count("n_fish", self.n_fish)?,
-            iterations: count("max_iterations", self.max_iterations)?,
-            try_number: count("try_number", self.try_number)?,
-            delta: self.delta,
-            visual: self.visual,
-            step: self.step,
-            schedule: choose(
-                "schedule",
-                &self.schedule,
-                &[
-                    ("start", Schedule::FromStart { visual_min, step_min, p }),
-                    ("recursive", Schedule::Recursive { visual_min, step_min, p }),
-                    ("constant", Schedule::Constant),
-                ],
-            )?,
-            neighbourhood: choose(
-                "neighbourhood",
-                &self.neighbourhood,
-                &[("swarm", Neighbourhood::Swarm), ("visual", Neighbourhood::Visual)],
-            )?,
-            crowd: choose(
-                "crowd",
-                &self.crowd,
-                &[("literal", Crowd::Literal), ("visual", Crowd::Visual), ("none", Crowd::None)],
-            )?,
-            search: choose("search", &self.search, &[("best", Search::Best), ("step", Search::Step)])?,
-        };
-        settings.check().map_err(to_python)?;
-        Ok(settings)
+/// One setting; a value of another type is named with its value.
+fn item<'py, T>(settings: &Bound<'py, PyDict>, name: &str, wanted: &str) -> PyResult<T>
+where
+    T: for<'a> FromPyObject<'a, 'py>,
+{
+    match settings.get_item(name)? {
+        Some(value) => value
+            .extract::<T>()
+            .map_err(|_| PyTypeError::new_err(format!("{name} is {value:?}: wanted {wanted}"))),
+        None => Err(PyTypeError::new_err(format!("{name} is missing: wanted {wanted}"))),
     }
 }
 
-impl Pso {
-    pub(crate) fn to_core(&self) -> PyResult<PsoSettings> {
-        let settings = PsoSettings {
-            particles: count("n_particles", self.n_particles)?,
-            iterations: count("max_iterations", self.max_iterations)?,
-            inertia: [self.inertia_start, self.inertia_end],
-            cognitive: self.cognitive,
-            social: self.social,
-            speed: self.speed,
-        };
-        settings.check().map_err(to_python)?;
-        Ok(settings)
-    }
+fn whole(settings: &Bound<'_, PyDict>, name: &str) -> PyResult<i64> {
+    item(settings, name, "a whole number")
+}
+
+fn number(settings: &Bound<'_, PyDict>, name: &str) -> PyResult<f64> {
+    item(settings, name, "a number")
+}
+
+/// Settings of AFSA and MAFSA, checked.
+pub(crate) fn fish(settings: &Bound<'_, PyDict>) -> PyResult<FishSettings> {
+    let text = |name| item::<String>(settings, name, "a text");
+    let (visual_min, step_min) = (number(settings, "visual_min")?, number(settings, "step_min")?);
+    let exponent = whole(settings, "p")?;
+    let p = u32::try_from(exponent).map_err(|_| setting("p", exponent, "a whole number from 1 to 30"))?;
+    let settings = FishSettings {
+        fish: count("n_fish", whole(settings, "n_fish")?)?,
+        iterations: count("max_iterations", whole(settings, "max_iterations")?)?,
+        try_number: count("try_number", whole(settings, "try_number")?)?,
+        delta: number(settings, "delta")?,
+        visual: number(settings, "visual")?,
+        step: number(settings, "step")?,
+        schedule: choose(
+            "schedule",
+            &text("schedule")?,
+            &[
+                ("start", Schedule::FromStart { visual_min, step_min, p }),
+                ("recursive", Schedule::Recursive { visual_min, step_min, p }),
+                ("constant", Schedule::Constant),
+            ],
+        )?,
+        neighbourhood: choose(
+            "neighbourhood",
+            &text("neighbourhood")?,
+            &[("swarm", Neighbourhood::Swarm), ("visual", Neighbourhood::Visual)],
+        )?,
+        crowd: choose(
+            "crowd",
+            &text("crowd")?,
+            &[("literal", Crowd::Literal), ("visual", Crowd::Visual), ("none", Crowd::None)],
+        )?,
+        search: choose("search", &text("search")?, &[("best", Search::Best), ("step", Search::Step)])?,
+    };
+    settings.check().map_err(to_python)?;
+    Ok(settings)
+}
+
+/// Settings of PSO, checked.
+pub(crate) fn pso(settings: &Bound<'_, PyDict>) -> PyResult<PsoSettings> {
+    let settings = PsoSettings {
+        particles: count("n_particles", whole(settings, "n_particles")?)?,
+        iterations: count("max_iterations", whole(settings, "max_iterations")?)?,
+        inertia: [number(settings, "inertia_start")?, number(settings, "inertia_end")?],
+        cognitive: number(settings, "cognitive")?,
+        social: number(settings, "social")?,
+        speed: number(settings, "speed")?,
+    };
+    settings.check().map_err(to_python)?;
+    Ok(settings)
 }
 
 /// Budgets as they come from Python.

@@ -1,11 +1,12 @@
 //! `Swarm`: ask, tell, and run to the end.
 
+use std::cell::RefCell;
 use std::sync::{Mutex, MutexGuard};
 
 use mre::parameter::{Bounds, Scale};
-use mre::swarm::{FishSwarm, ParticleSwarm, Progress, StopReason, Stream, Swarm as Core, run};
+use mre::swarm::{FishSwarm, Monitor, ParticleSwarm, Progress, StopReason, Stream, Swarm as Core, run};
 use numpy::{PyArray1, PyArray2};
-use pyo3::exceptions::PyRuntimeError;
+use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -13,7 +14,7 @@ use crate::array::{matrix, rows, vector};
 use crate::error::{MreError, setting, to_python};
 use crate::problem::Problem;
 use crate::run::{Ended, call, in_pool, raises};
-use crate::settings::{Fish, Pso, budget};
+use crate::settings::{budget, fish, pso};
 
 /// A swarm in a box; used once.
 #[pyclass(frozen, module = "mre_core._core")]
@@ -99,6 +100,13 @@ impl Swarm {
                     ));
                 }
                 let names = names.unwrap_or_else(|| (0..lower.len()).map(|i| format!("x[{i}]")).collect());
+                if names.len() != lower.len() {
+                    return Err(setting(
+                        "number of names",
+                        names.len(),
+                        &format!("{}, one a bound", lower.len()),
+                    ));
+                }
                 let scale = vec![Scale::Linear; lower.len()];
                 Bounds::new(&names, lower, upper, scale).map_err(to_python)?
             }
@@ -116,10 +124,10 @@ impl Swarm {
             })
             .transpose()?;
         let state: Box<dyn Core> = if kind == "pso" {
-            let settings = settings.extract::<Pso>()?.to_core()?;
+            let settings = pso(settings)?;
             Box::new(ParticleSwarm::new(settings, bounds.len(), seed, start.as_deref()).map_err(to_python)?)
         } else {
-            let settings = settings.extract::<Fish>()?.to_core()?;
+            let settings = fish(settings)?;
             Box::new(FishSwarm::new(settings, bounds.len(), seed, start.as_deref()).map_err(to_python)?)
         };
         Ok(Self { bounds, state: Mutex::new(state) })
@@ -217,7 +225,8 @@ impl Swarm {
                 }
                 problem.inner.fitness(&physical, costs, link.cancel());
             };
-            run(swarm, &mut evaluate, d, &budget, &mut |progress| link.report(progress))
+            let mut monitor = link;
+            run(swarm, &mut evaluate, d, &budget, &mut monitor)
         })?;
         Ok(name_of(reason, ended))
     }
@@ -237,8 +246,7 @@ impl Swarm {
     ) -> PyResult<&'static str> {
         let budget = budget(max_evaluations, time_limit, target)?;
         let raise = raises(on_interrupt)?;
-        let failure = std::cell::RefCell::new(None);
-        let mut ended = Ended::ByItself;
+        let failure = RefCell::new(None);
         let mut state = self.lock()?;
         let mut evaluate = |unit: &[f64], costs: &mut [f64]| {
             if let Err(error) = self.call_function(py, &function, unit, costs) {
@@ -246,29 +254,39 @@ impl Swarm {
                 *failure.borrow_mut() = Some(error);
             }
         };
-        let mut monitor = |progress: Progress| {
-            if failure.borrow().is_some() {
-                return false;
-            }
-            match callback.as_ref().map_or(Ok(false), |callback| call(py, callback, progress)) {
-                Ok(false) => true,
-                Ok(true) => {
-                    ended = Ended::ByCallback;
-                    false
-                }
-                Err(error) => {
-                    *failure.borrow_mut() = Some(error);
-                    false
-                }
-            }
-        };
-        let reason = run(&mut **state, &mut evaluate, self.bounds.len(), &budget, &mut monitor);
+        let mut watch = Watch { py, callback: callback.as_ref(), failure: &failure, ended: Ended::ByItself };
+        let reason = run(&mut **state, &mut evaluate, self.bounds.len(), &budget, &mut watch);
+        let ended = watch.ended;
         match failure.into_inner() {
-            Some(error) if raise || !error.is_instance_of::<pyo3::exceptions::PyKeyboardInterrupt>(py) => {
-                Err(error)
-            }
+            Some(error) if raise || !error.is_instance_of::<PyKeyboardInterrupt>(py) => Err(error),
             _ => Ok(name_of(reason, ended)),
         }
+    }
+}
+
+/// Watches a run on a Python function, on the thread that runs it.
+struct Watch<'a, 'py> {
+    py: Python<'py>,
+    callback: Option<&'a Py<PyAny>>,
+    failure: &'a RefCell<Option<PyErr>>,
+    ended: Ended,
+}
+
+impl Monitor for Watch<'_, '_> {
+    fn broken_off(&self) -> bool {
+        self.failure.borrow().is_some()
+    }
+
+    fn go_on(&mut self, progress: Progress) -> bool {
+        if self.broken_off() {
+            return false;
+        }
+        match self.callback.map_or(Ok(false), |callback| call(self.py, callback, progress)) {
+            Ok(false) => return true,
+            Ok(true) => self.ended = Ended::ByCallback,
+            Err(error) => *self.failure.borrow_mut() = Some(error),
+        }
+        false
     }
 }
 

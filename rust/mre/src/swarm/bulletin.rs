@@ -3,7 +3,7 @@
 /// The best point ever told, and how many were told.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bulletin {
-    /// Best point in the unit box.
+    /// Best point in the unit box; the first one while no finite cost was told.
     pub position: Vec<f64>,
     /// Its cost; infinite while no finite cost was told.
     pub cost: f64,
@@ -28,9 +28,12 @@ impl Bulletin {
             self.evaluations += 1;
             if !cost.is_finite() {
                 self.failures += 1;
-            } else if *cost < self.cost {
-                self.cost = *cost;
+            }
+            if *cost < self.cost || self.evaluations == 1 {
                 self.position.copy_from_slice(point);
+            }
+            if cost.is_finite() {
+                self.cost = self.cost.min(*cost);
             }
         }
     }

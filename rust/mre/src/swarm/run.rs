@@ -63,7 +63,12 @@ pub struct Progress {
 
 /// Watches an optimisation between generations.
 pub trait Monitor {
-    /// False to stop.
+    /// True when the costs of the generation at hand are not to be used: it was broken off.
+    fn broken_off(&self) -> bool {
+        false
+    }
+
+    /// Told after every generation; false to stop.
     fn go_on(&mut self, progress: Progress) -> bool;
 }
 
@@ -74,7 +79,7 @@ impl<F: FnMut(Progress) -> bool> Monitor for F {
 }
 
 /// Drive a swarm to its end or to the end of a budget. `evaluate` fills in the costs of points of the
-/// unit box, one row each.
+/// unit box, one row each; NaN for points that it left out because it was broken off.
 pub fn run(
     swarm: &mut dyn Swarm,
     evaluate: &mut dyn FnMut(&[f64], &mut [f64]),
@@ -87,25 +92,35 @@ pub fn run(
     while !swarm.finished() {
         let rows = swarm.ask();
         let wanted = rows.len() / dimension;
-        let left = budget.evaluations.map_or(u64::MAX, |most| most - swarm.bulletin().evaluations);
+        let left =
+            budget.evaluations.map_or(u64::MAX, |most| most.saturating_sub(swarm.bulletin().evaluations));
         let count = wanted.min(usize::try_from(left).unwrap_or(usize::MAX));
+        if count == 0 {
+            return StopReason::Evaluations;
+        }
         costs.clear();
         costs.resize(count, f64::INFINITY);
         evaluate(&rows[..count * dimension], &mut costs);
-        let interrupted = !monitor.go_on(progress(swarm));
-        if interrupted || count < wanted {
+        let broken_off = monitor.broken_off();
+        if broken_off || count < wanted {
             swarm.tell_some(&costs);
-            return if interrupted { StopReason::Interrupted } else { StopReason::Evaluations };
+        } else {
+            swarm.tell(&costs);
         }
-        swarm.tell(&costs);
+        let go_on = monitor.go_on(progress(swarm));
+        if broken_off || !go_on {
+            return StopReason::Interrupted;
+        }
         if budget.target.is_some_and(|target| swarm.bulletin().cost <= target) {
             return StopReason::Target;
+        }
+        if count < wanted {
+            return StopReason::Evaluations;
         }
         if budget.time.is_some_and(|most| started.elapsed() >= most) {
             return StopReason::Time;
         }
     }
-    monitor.go_on(progress(swarm));
     StopReason::Iterations
 }
 

@@ -1,0 +1,49 @@
+# The one list of commands. Everything is installed into a virtual environment inside the repository.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+export CARGO_BUILD_JOBS ?= 2
+STAMP := $(VENV)/.installed
+
+.PHONY: demo test test-rust test-python lint bench figures install clean
+
+# The main job: identify the paper's twelve tests (a simulated replica) with both models and all swarms.
+demo: install
+	$(BIN)/mre-core demo --out demo
+
+test: test-rust test-python
+
+test-rust:
+	cargo test --locked -p mre
+
+test-python: install
+	$(BIN)/python -m pytest
+
+lint: install
+	cargo fmt --all --check
+	cargo clippy --workspace --all-targets --locked -- -D warnings
+	RUSTDOCFLAGS="-D warnings" cargo doc --no-deps --locked -p mre
+	$(BIN)/ruff format --check python tests benches
+	$(BIN)/ruff check python tests benches
+	$(BIN)/mypy
+	$(BIN)/python -m mypy.stubtest mre_core._core --allowlist tests/stubtest-allowlist.txt
+
+bench:
+	cargo bench --locked -p mre-bench
+
+# The figures of the README: fits of real recordings, and the readings of the paper.
+figures: install
+	$(BIN)/python benches/real_fits.py
+	$(BIN)/python benches/readings.py
+
+install: $(STAMP)
+
+# Built anew when any source of the package has changed.
+$(STAMP): pyproject.toml Cargo.toml Cargo.lock $(shell find rust python -name '*.rs' -o -name '*.toml' -o -name '*.py' -o -name '*.pyi')
+	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet "maturin>=1.9.4,<2"
+	$(BIN)/python -m pip install --quiet --no-build-isolation --editable '.[dev]'
+	touch $(STAMP)
+
+clean:
+	rm -rf $(VENV) target demo
