@@ -26,7 +26,7 @@ lint: install
 	$(BIN)/ruff format --check python tests benches
 	$(BIN)/ruff check python tests benches
 	$(BIN)/mypy
-	$(BIN)/python -m mypy.stubtest mre_core._core --allowlist tests/stubtest-allowlist.txt
+	$(BIN)/python -m mypy.stubtest mre_core._core
 
 bench:
 	cargo bench --locked -p mre-bench

@@ -52,8 +52,8 @@ impl Term for BoucWen {
             upper,
             scale,
         };
-        // Yield displacements from five strokes down to 2 % of the longest, or 5 % of the shortest.
-        let sharpest = (50.0 / extent.displacement).max(20.0 / extent.shortest);
+        // Yield displacements from five strokes down to 1 % of the longest, or 5 % of the shortest.
+        let sharpest = (100.0 / extent.displacement).max(20.0 / extent.shortest);
         vec![
             parameter("rho", "1/mm", 0.0, 0.2 / extent.displacement, sharpest, Scale::Log),
             parameter("sigma", "", 0.5, 0.5, 2.0, Scale::Linear),

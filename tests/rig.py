@@ -1,0 +1,110 @@
+"""What several tests need: simulated recordings, their files, and the command line in either of two ways."""
+
+import os
+import subprocess
+import sys
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import mre_core
+import numpy as np
+from mre_core import Level, Model, Recording
+from numpy.typing import NDArray
+
+SINH = {"c0": 1.108, "k0": 13.702, "alpha": 14.645, "beta": 0.302, "F0": 0.001}
+"""1 A and 4 mm in the replica of the seed paper's campaign."""
+KELVIN_VOIGT = {"c0": 0.3, "k0": 5.0, "F0": 0.5}
+BOUC_WEN = {"c0": 0.5, "kx": 3.0, "kw": 40.0, "rho": 0.8, "sigma": 1.5, "n": 1.5, "F0": 1.0}
+
+HEADER = "time_s,displacement_mm,force_N"
+
+
+def motion(amplitude: float = 4.0, *, rate: float = 256.0, cycles: float = 3.0, **given: Any) -> Recording:
+    """A 1 Hz sine with its true velocity and no force."""
+    time = np.arange(round(cycles * rate) + 1) / rate
+    turn = 2 * np.pi
+    velocity = amplitude * turn * np.cos(turn * time)
+    return Recording(time, amplitude * np.sin(turn * time), None, velocity=velocity, **given)
+
+
+def made_of(name: str, parameters: Mapping[str, float], current: float | None = None) -> Model:
+    return Model(name, (Level(current, parameters),))
+
+
+def record(
+    model: Model, moved: Recording, *, noise: float = 0.0, seed: int = 0, name: str = "test"
+) -> Recording:
+    """What a rig records of a device that is exactly the model."""
+    force = mre_core.simulate(model, moved)
+    force = force + noise * np.random.default_rng(seed).normal(size=len(force))
+    return Recording(
+        moved.time, moved.displacement, force, velocity=moved.velocity, current=moved.current, name=name
+    )
+
+
+def rms(error: NDArray[np.float64]) -> float:
+    return float(np.sqrt(np.mean(error**2)))
+
+
+def force_of(recording: Recording) -> NDArray[np.float64]:
+    assert recording.force is not None
+    return recording.force
+
+
+def write_csv(
+    path: Path, recording: Recording, header: str = HEADER, scale: Sequence[float] = (1, 1, 1)
+) -> Path:
+    """Time, displacement and force; `scale` brings them to the units in the header."""
+    columns = (recording.time, recording.displacement, force_of(recording))
+    rows = zip(*(s * c for s, c in zip(scale, columns, strict=True)), strict=True)
+    lines = [",".join(repr(float(value)) for value in row) for row in rows]
+    path.write_text("\n".join([header, *lines]) + "\n", encoding="utf-8")
+    return path
+
+
+def rows_of(path: Path) -> NDArray[np.float64]:
+    """The two columns of a prediction."""
+    lines = path.read_text(encoding="utf-8").splitlines()
+    assert lines[0] == "time_s,force_N"
+    return np.array([[float(cell) for cell in line.split(",")] for line in lines[1:]])
+
+
+def command(*arguments: str | Path, before: str = "") -> list[str]:
+    """The command line as a process; `before` is Python that its process does first."""
+    start = [sys.executable, "-m", "mre_core"]
+    if before:
+        code = f"import sys\n{before}\nfrom mre_core.cli import main\nsys.exit(main(sys.argv[1:]))"
+        start = [sys.executable, "-c", code]
+    return [*start, *(str(argument) for argument in arguments)]
+
+
+def run_process(
+    *arguments: str | Path, before: str = "", timeout: float = 120.0
+) -> subprocess.CompletedProcess[str]:
+    # Without a display or a terminal width of this shell, which would change what is shown.
+    environment = {name: value for name, value in os.environ.items() if name not in {"COLUMNS", "DISPLAY"}}
+    return subprocess.run(
+        command(*arguments, before=before),
+        capture_output=True,
+        text=True,
+        timeout=timeout,
+        check=False,
+        env=environment,
+    )
+
+
+def run_script(code: str, timeout: float = 120.0) -> subprocess.CompletedProcess[str]:
+    """Python in a fresh interpreter that sees warnings as errors, as these tests do."""
+    return subprocess.run(
+        [sys.executable, "-W", "error", "-c", code],
+        capture_output=True,
+        text=True,
+        timeout=timeout,
+        check=False,
+    )
+
+
+def everything_in(folder: Path) -> set[str]:
+    """Files and folders below a folder, hidden ones included."""
+    return {str(path.relative_to(folder)) for path in folder.rglob("*")}
