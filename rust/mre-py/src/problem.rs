@@ -14,7 +14,28 @@ use crate::error::{setting, to_python};
 use crate::recording::Recording;
 use crate::run::in_pool;
 
-/// Fitness of a model's parameters on recordings; immutable.
+/// Fitness of a model's parameters on recordings: eq. 5 of Yu, Li and Li (ISARC 2014); immutable.
+///
+/// All recordings share the parameters, whatever their constant current; where the current changes
+/// within one of them, the coefficients are affine in the current and have two values each.
+///
+/// Parameters
+/// ----------
+/// recordings : Recording or sequence of them
+///     With force.
+/// model : {"sinh", "bouc_wen", "kelvin_voigt"}
+///     The model.
+/// bounds : mapping of name to (lower, upper), optional
+///     Bounds that replace default ones, which follow from the recordings.
+/// weights : {"samples", "force"} or array, shape (number of recordings,), optional
+///     Every sample counts the same, or every recording by the inverse of its mean squared force, or by
+///     the given weight. The fitness stays a mean over all samples, in N^2.
+///
+/// Raises
+/// ------
+/// MreError
+///     No recording, a recording without force, an unknown model or parameter, bounds that are reversed
+///     or not admissible, weights that are not positive (a ValueError).
 #[pyclass(frozen, module = "mre_core._core")]
 pub(crate) struct Problem {
     pub(crate) inner: Arc<Core>,
@@ -95,7 +116,8 @@ impl Problem {
         PyArray1::from_slice(py, self.inner.bounds().upper())
     }
 
-    /// Fitness in N^2 of one candidate or of rows of them.
+    /// Fitness in N^2 of one candidate, shape (d,), or of rows of them, shape (n, d); infinite where a
+    /// candidate cannot be simulated. The result does not depend on the number of threads.
     #[pyo3(signature = (x, *, threads=None))]
     fn fitness<'py>(
         &self,

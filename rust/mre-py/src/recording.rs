@@ -11,7 +11,30 @@ use pyo3::types::{PyDict, PyTuple};
 use crate::array::vector;
 use crate::error::to_python;
 
-/// One validated recording; immutable.
+/// A validated recording; immutable.
+///
+/// Parameters
+/// ----------
+/// time : array, shape (n,)
+///     s, strictly increasing, not necessarily uniform; n of at least 8.
+/// displacement : array, shape (n,)
+///     mm.
+/// force : array, shape (n,), or None
+///     N; None for an excitation to simulate.
+/// velocity : array, shape (n,), optional
+///     mm/s; derived from the displacement where missing, by local cubics (`velocity_window` in s).
+/// current, temperature : float or array, shape (n,), optional
+///     A and degC.
+/// simulated : array, shape (n,), optional
+///     N; force of a user's own simulation.
+/// name : str
+///     Name in messages and tables.
+///
+/// Raises
+/// ------
+/// MreError
+///     Different lengths, too few samples, a value that is not finite, time that does not increase, or
+///     a displacement that never changes (a ValueError).
 #[pyclass(frozen, from_py_object, module = "mre_core._core")]
 #[derive(Clone)]
 pub(crate) struct Recording {
@@ -138,11 +161,14 @@ impl Recording {
         self.inner.len()
     }
 
+    /// Keep the part from `start` to `stop` (s). What is cut off is forgotten: a simulation starts rested.
     #[pyo3(signature = (start=None, stop=None))]
     fn cut(&self, start: Option<f64>, stop: Option<f64>) -> PyResult<Self> {
         wrap(self.inner.cut(start.unwrap_or(f64::NEG_INFINITY), stop.unwrap_or(f64::INFINITY)))
     }
 
+    /// Leave "start_transient", "stop_transient" or both out of the fitness; they stay in simulations.
+    /// Found from the strokes between reversals; nothing is left out where the motion is not steady.
     #[pyo3(signature = (*names))]
     fn exclude(&self, names: &Bound<'_, PyTuple>) -> PyResult<Self> {
         let names: Vec<String> = names.extract()?;
