@@ -1,5 +1,6 @@
 """``mre-core demo``."""
 
+import os
 from pathlib import Path
 from typing import Any
 
@@ -7,6 +8,9 @@ import click
 
 _MODELS = ("sinh", "bouc_wen")
 _OPTIMIZERS = ("mafsa", "afsa", "pso")
+
+Results = dict[tuple[str, str, str], Any]
+"""Identifications by test, model and swarm."""
 
 
 @click.command()
@@ -23,36 +27,67 @@ def demo(out: Path | None, seed: int, iterations: int, threads: int | None) -> N
     """
     from contextlib import nullcontext
 
-    from ..identify import Identification, identify
     from ..output import Stage, staged
     from ..replica import CAMPAIGN, record
-    from .show import console, progress
+    from .show import console
 
-    results: dict[tuple[str, str, str], Identification] = {}
     recordings = [record(condition, seed) for condition in CAMPAIGN]
-    total = len(recordings) * len(_MODELS) * len(_OPTIMIZERS)
     place = staged(out) if out is not None else nullcontext()
     with place as stage:
-        with progress(total, quiet=False) as (_, on_progress):
-            for recording in recordings:
-                for model in _MODELS:
-                    for optimizer in _OPTIMIZERS:
-                        found = identify(
-                            recording,
-                            model,
-                            optimizer=optimizer,  # type: ignore[arg-type]  # one of the tuple above
-                            seed=seed,
-                            max_iterations=iterations,
-                            threads=threads,
-                        )
-                        results[recording.name, model, optimizer] = found
-                        on_progress(len(results), found.result.nfev, found.result.fitness)
+        results = _identify_all(recordings, seed, iterations, threads)
         _print(console(), results)
         if isinstance(stage, Stage):
             _write(stage, recordings, results)
 
 
-def _print(out: Any, results: dict[tuple[str, str, str], Any]) -> None:
+def _identify_all(recordings: list[Any], seed: int, iterations: int, threads: int | None) -> Results:
+    """Identify every test with every model and swarm, side by side with one thread each."""
+    from concurrent.futures import ThreadPoolExecutor, as_completed
+    from threading import Event
+
+    from ..identify import identify
+    from .show import progress
+
+    stop = Event()
+    jobs = [
+        (recording, model, optimizer)
+        for recording in recordings
+        for model in _MODELS
+        for optimizer in _OPTIMIZERS
+    ]
+
+    def run(recording: Any, model: str, optimizer: Any) -> Any:
+        return identify(
+            recording,
+            model,
+            optimizer=optimizer,
+            seed=seed,
+            max_iterations=iterations,
+            threads=1,
+            callback=lambda *_: stop.is_set(),
+        )
+
+    found: Results = {}
+    with (
+        ThreadPoolExecutor(threads or os.cpu_count()) as pool,
+        progress(len(jobs), quiet=False) as (_, on_progress),
+    ):
+        waiting = {pool.submit(run, *job): (job[0].name, *job[1:]) for job in jobs}
+        try:
+            for future in as_completed(waiting):
+                found[waiting[future]] = future.result()
+                on_progress(len(found), future.result().result.nfev, future.result().result.fitness)
+        except BaseException:
+            stop.set()  # Ctrl-C reaches this thread only; the others ask here
+            pool.shutdown(cancel_futures=True)
+            raise
+    return {
+        (recording.name, model, optimizer): found[recording.name, model, optimizer]
+        for recording, model, optimizer in jobs
+    }
+
+
+def _print(out: Any, results: Results) -> None:
     from rich.table import Table
 
     out.print(
@@ -77,7 +112,7 @@ def _print(out: Any, results: dict[tuple[str, str, str], Any]) -> None:
         out.print(f"{model} by {optimizer}: {count // per_test} evaluations a test")
 
 
-def _write(stage: Any, recordings: list[Any], results: dict[tuple[str, str, str], Any]) -> None:
+def _write(stage: Any, recordings: list[Any], results: Results) -> None:
     """Write the recordings, one table, and the figures of the paper that the campaign can show."""
     from ..plot import plot_convergence, plot_fit
 
