@@ -1,5 +1,7 @@
 //! The Python module `mre_core._core`: arrays in, arrays out, errors, signals. No mathematics.
 
+#![allow(clippy::doc_markdown)] // docstrings are read in Python, in the form of numpydoc
+
 use pyo3::prelude::*;
 
 mod array;
