@@ -1,13 +1,11 @@
 """Fixtures."""
 
 import os
-from collections.abc import Callable
 from pathlib import Path
 
-import mre_core
 import pytest
 from mre_core import Recording
-from rig import SINH, made_of, motion, record, write_csv
+from rig import SINH, Cli, made_of, motion, record, write_csv
 
 
 @pytest.fixture(scope="session")
@@ -20,22 +18,6 @@ def sinh_4mm() -> Recording:
 def sinh_csv(tmp_path: Path, sinh_4mm: Recording) -> Path:
     """The same as a file."""
     return write_csv(tmp_path / "test.csv", sinh_4mm)
-
-
-class Cli:
-    """The command line in this process, which is faster than a new one."""
-
-    def __init__(self, capsys: pytest.CaptureFixture[str]) -> None:
-        self._capsys = capsys
-
-    def __call__(self, *arguments: str | Path) -> tuple[int, str, str]:
-        """Exit status, standard output, standard error."""
-        from mre_core.cli import main
-
-        self._capsys.readouterr()
-        status = main([str(argument) for argument in arguments])
-        out, err = self._capsys.readouterr()
-        return status, out, err
 
 
 @pytest.fixture
@@ -54,14 +36,3 @@ def real_data() -> Path:
             pytest.fail(reason)
         pytest.skip(reason)
     return folder
-
-
-@pytest.fixture(scope="session")
-def damper(real_data: Path) -> list[Recording]:
-    """All tests of the damper, without their transients."""
-    return _damper(real_data, lambda r: r.exclude("start_transient", "stop_transient"))
-
-
-def _damper(real_data: Path, prepare: Callable[[Recording], Recording]) -> list[Recording]:
-    files = sorted((real_data / "mr-damper-usm").glob("*.csv"))
-    return [prepare(mre_core.load(f, name_pattern="{amplitude}mm{frequency}Hz{current}A")) for f in files]

@@ -9,7 +9,9 @@ from typing import Any
 
 import mre_core
 import numpy as np
+import pytest
 from mre_core import Level, Model, Recording
+from mre_core.cli import main
 from numpy.typing import NDArray
 
 SINH = {"c0": 1.108, "k0": 13.702, "alpha": 14.645, "beta": 0.302, "F0": 0.001}
@@ -103,6 +105,20 @@ def run_script(code: str, timeout: float = 120.0) -> subprocess.CompletedProcess
         timeout=timeout,
         check=False,
     )
+
+
+class Cli:
+    """The command line in this process, which is faster than a new one."""
+
+    def __init__(self, capsys: pytest.CaptureFixture[str]) -> None:
+        self._capsys = capsys
+
+    def __call__(self, *arguments: str | Path) -> tuple[int, str, str]:
+        """Exit status, standard output, standard error."""
+        self._capsys.readouterr()
+        status = main([str(argument) for argument in arguments])
+        out, err = self._capsys.readouterr()
+        return status, out, err
 
 
 def everything_in(folder: Path) -> set[str]:

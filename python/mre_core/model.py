@@ -53,6 +53,7 @@ class Model:
                 raise InputError(
                     f"parameters of {self.name} are {', '.join(level.parameters)}", wanted=", ".join(known)
                 )
+        _core.check(self.name, [(level.current, self.values(level)) for level in self.levels])
 
     def values(self, level: Level) -> list[float]:
         """Parameters of a level in the order of the equation."""
@@ -105,10 +106,10 @@ class Model:
             return cls(str(content["model"]), levels, tested)
         except (KeyError, TypeError, AttributeError) as error:
             raise InputError(f"not a model: {error!r}", file=file, wanted=f"a {SCHEMA} file") from None
-        except InputError:
-            raise
         except ValueError as error:
-            raise InputError(str(error), file=file) from None
+            raise (
+                error if file and str(error).startswith(file) else InputError(str(error), file=file)
+            ) from None
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Self:

@@ -1,5 +1,6 @@
 """Options that several commands share, and how their texts are read."""
 
+import math
 import tomllib
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
@@ -13,6 +14,9 @@ from ..load import load
 from ..units import ROLES
 
 F = TypeVar("F", bound=Callable[..., Any])
+
+WHOLE = click.IntRange(-(2**63), 2**63 - 1, clamp=False)
+"""Whole numbers that the core can take; their ranges are checked there."""
 
 _PAIRS = ("--map", "--set")
 
@@ -46,7 +50,7 @@ def _read_config(context: click.Context, _: click.Parameter, value: Path | None)
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise InputError(f"is not TOML: {error}", file=file) from None
     known = {
-        name.removeprefix("--").replace("-", "_"): p.name
+        name.removeprefix("--").replace("-", "_"): p
         for p in context.command.params
         if isinstance(p, click.Option) and p.name != "config"
         for name in p.opts
@@ -54,16 +58,19 @@ def _read_config(context: click.Context, _: click.Parameter, value: Path | None)
     }
     defaults: dict[str, Any] = {}
     for key, setting in content.items():
-        name = known.get(key.replace("-", "_"))
-        if name is None:
+        option = known.get(key.replace("-", "_"))
+        if option is None:
             from difflib import get_close_matches
 
             near = get_close_matches(key, known, n=1)
             hint = f" (nearest: {near[0]})" if near else ""
             raise InputError(f"unknown key '{key}'{hint}", file=file, wanted=", ".join(sorted(known)))
-        if isinstance(setting, dict):
+        if isinstance(setting, dict) and option.multiple:
             setting = [f"{role}={text}" for role, text in setting.items()]
-        defaults[name] = setting
+        if isinstance(setting, list) != option.multiple or isinstance(setting, dict):
+            wanted = "a list or a table" if option.multiple else "a single value"
+            raise InputError(f"{option.opts[0]} is {setting!r}", file=file, wanted=wanted)
+        defaults[str(option.name)] = setting
     context.default_map = {**(context.default_map or {}), **defaults}
     return value
 
@@ -153,9 +160,10 @@ def read_interval(text: str) -> tuple[float | None, float | None]:
     """Read ``START:STOP`` in s; either side may be empty."""
     start, colon, stop = text.partition(":")
     try:
-        if not colon:
+        interval = tuple(float(side) if side.strip() else None for side in (start, stop))
+        if not colon or any(side is not None and not math.isfinite(side) for side in interval):
             raise ValueError
-        return (float(start) if start.strip() else None, float(stop) if stop.strip() else None)
+        return interval[0], interval[1]
     except ValueError:
         raise InputError(f"--cut {text}", wanted="--cut START:STOP in seconds, either may be empty") from None
 

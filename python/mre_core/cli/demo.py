@@ -6,6 +6,8 @@ from typing import Any
 
 import click
 
+from .arguments import WHOLE
+
 _MODELS = ("sinh", "bouc_wen")
 _OPTIMIZERS = ("mafsa", "afsa", "pso")
 
@@ -15,11 +17,11 @@ Results = dict[tuple[str, str, str], Any]
 
 @click.command()
 @click.option("--out", type=click.Path(path_type=Path), metavar="DIR", help="Folder for tables and figures.")
-@click.option("--seed", type=int, default=1, show_default=True, help="Of the noise and of the swarms.")
+@click.option("--seed", type=WHOLE, default=1, show_default=True, help="Of the noise and of the swarms.")
 @click.option(
-    "--iterations", type=int, default=100, show_default=True, help="Of each swarm; the paper has 300."
+    "--iterations", type=WHOLE, default=100, show_default=True, help="Of each swarm; the paper has 300."
 )
-@click.option("--threads", type=int, help="Threads; all cores by default.")
+@click.option("--threads", type=WHOLE, help="Threads; all cores by default.")
 def demo(out: Path | None, seed: int, iterations: int, threads: int | None) -> None:
     """Identify the paper's twelve tests with both models and all three swarms.
 

@@ -5,7 +5,7 @@ from typing import Any
 
 import click
 
-from .arguments import common_options, load_all, read_bounds, read_interval, unique_names
+from .arguments import WHOLE, common_options, load_all, read_bounds, read_interval, unique_names
 
 
 @click.command()
@@ -17,16 +17,16 @@ from .arguments import common_options, load_all, read_bounds, read_interval, uni
     "--optimizer", default="mafsa", show_default=True, metavar="mafsa|afsa|pso", help="Which swarm."
 )
 @click.option("--out", type=click.Path(path_type=Path), metavar="DIR", help="Folder for the results.")
-@click.option("--seed", type=int, help="Same seed, same result.")
+@click.option("--seed", type=WHOLE, help="Same seed, same result.")
 @click.option("--bounds", multiple=True, metavar="NAME=LOWER:UPPER", help="Bounds that replace default ones.")
 @click.option("--weights", metavar="samples|force", help="Count samples, or recordings by their force.")
 @click.option("--cut", metavar="START:STOP", help="Keep this part of every recording, in s.")
 @click.option("--exclude", metavar="PARTS", help="start_transient, stop_transient or both, with a comma.")
-@click.option("--fish", type=int, default=50, show_default=True, help="Fish or particles.")
-@click.option("--iterations", type=int, default=300, show_default=True, help="Iterations.")
-@click.option("--max-evaluations", type=int, help="Budget of evaluations for each current.")
+@click.option("--fish", type=WHOLE, default=50, show_default=True, help="Fish or particles.")
+@click.option("--iterations", type=WHOLE, default=300, show_default=True, help="Iterations.")
+@click.option("--max-evaluations", type=WHOLE, help="Budget of evaluations for each current.")
 @click.option("--time-limit", type=float, metavar="S", help="Budget of seconds for each current.")
-@click.option("--threads", type=int, help="Threads; all cores by default.")
+@click.option("--threads", type=WHOLE, help="Threads; all cores by default.")
 @click.option("--no-figures", is_flag=True, help="Write no figures.")
 @click.option("--quiet", is_flag=True, help="No progress, no tables.")
 @common_options

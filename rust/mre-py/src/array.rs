@@ -7,16 +7,39 @@ use crate::error::MreError;
 
 /// A one-dimensional array of numbers, copied: the caller may go on writing to its own.
 pub(crate) fn vector(what: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
-    match value.extract::<PyArrayLike1<'_, f64, AllowTypeChange>>() {
+    let wanted = "a one-dimensional array of numbers";
+    let array = plain(value).ok_or_else(|| unreadable(what, value, wanted))?;
+    match array.extract::<PyArrayLike1<'_, f64, AllowTypeChange>>() {
         Ok(array) => Ok(array.as_array().iter().copied().collect()),
-        Err(_) => Err(unreadable(what, value, "a one-dimensional array of numbers")),
+        Err(_) => Err(unreadable(what, value, wanted)),
+    }
+}
+
+/// The value as a NumPy array of real numbers without a mask. NumPy itself would turn words into
+/// numbers, drop imaginary parts and forget masks.
+fn plain<'py>(value: &Bound<'py, PyAny>) -> Option<Bound<'py, PyAny>> {
+    let numpy = value.py().import("numpy").ok()?;
+    if value.is_instance(&numpy.getattr("ma").ok()?.getattr("MaskedArray").ok()?).ok()? {
+        return None;
+    }
+    let array = numpy.call_method1("asarray", (value,)).ok()?;
+    let kind: String = array.getattr("dtype").ok()?.getattr("kind").ok()?.extract().ok()?;
+    match kind.as_str() {
+        "b" | "i" | "u" | "f" => Some(array),
+        "O" => {
+            let numbers: Vec<f64> = array.call_method0("ravel").ok()?.extract().ok()?;
+            let shape = array.getattr("shape").ok()?;
+            PyArray1::from_vec(value.py(), numbers).call_method1("reshape", (shape,)).ok()
+        }
+        _ => None,
     }
 }
 
 /// Rows of `columns` numbers; a single row may come one-dimensional. The flag says whether it did.
 pub(crate) fn rows(what: &str, value: &Bound<'_, PyAny>, columns: usize) -> PyResult<(Vec<f64>, bool)> {
     let wanted = format!("an array of shape (n, {columns}) or ({columns},)");
-    if let Ok(array) = value.extract::<PyArrayLike2<'_, f64, AllowTypeChange>>() {
+    let array = plain(value).ok_or_else(|| unreadable(what, value, &wanted))?;
+    if let Ok(array) = array.extract::<PyArrayLike2<'_, f64, AllowTypeChange>>() {
         return if array.shape()[1] == columns {
             Ok((array.as_array().iter().copied().collect(), false))
         } else {

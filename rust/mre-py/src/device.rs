@@ -23,17 +23,29 @@ pub(crate) fn parameters(model: &str) -> PyResult<Vec<(String, &'static str)>> {
     Ok(model.parameters(&Extent::UNIT).into_iter().map(|p| (p.name, p.unit)).collect())
 }
 
+type Levels = Vec<(Option<f64>, Vec<f64>)>;
+
+fn device(model: &str, levels: Levels) -> PyResult<Device> {
+    let levels = levels.into_iter().map(|(current, values)| Level { current, values }).collect();
+    Device::new(Model::named(model).map_err(to_python)?, levels).map_err(to_python)
+}
+
+/// Check a model's parameters at levels of the current.
+#[pyfunction]
+pub(crate) fn check(model: &str, levels: Levels) -> PyResult<()> {
+    device(model, levels).map(|_| ())
+}
+
 /// Restoring force in N of a model with parameters at levels of the current, over a recording.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)] // taken over from Python
 pub(crate) fn simulate<'py>(
     py: Python<'py>,
     model: &str,
-    levels: Vec<(Option<f64>, Vec<f64>)>,
+    levels: Levels,
     recording: Recording,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-    let levels = levels.into_iter().map(|(current, values)| Level { current, values }).collect();
-    let device = Device::new(Model::named(model).map_err(to_python)?, levels).map_err(to_python)?;
+    let device = device(model, levels)?;
     let force = py.detach(|| device.simulate(&recording.inner)).map_err(to_python)?;
     Ok(PyArray1::from_vec(py, force))
 }

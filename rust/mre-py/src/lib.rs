@@ -16,7 +16,7 @@ mod swarm;
 #[pymodule]
 mod _core {
     #[pymodule_export]
-    use crate::device::{classical, models, parameters, simulate};
+    use crate::device::{check, classical, models, parameters, simulate};
     #[pymodule_export]
     use crate::error::MreError;
     #[pymodule_export]

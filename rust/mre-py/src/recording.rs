@@ -10,6 +10,7 @@ use pyo3::types::{PyDict, PyTuple};
 
 use crate::array::vector;
 use crate::error::to_python;
+use crate::run::in_pool;
 
 /// A validated recording; immutable.
 ///
@@ -88,7 +89,8 @@ impl Recording {
             temperature: condition("temperature", temperature)?,
             name: name.to_owned(),
         };
-        wrap(time.py().detach(|| Core::new(series)))
+        // A pool of its own: the global one does not survive a fork.
+        wrap(in_pool(time.py(), None, None, true, |_| Core::new(series))?.0)
     }
 
     #[getter]

@@ -5,7 +5,7 @@ use std::time::Duration;
 use mre::swarm::{Budget, Crowd, FishSettings, Neighbourhood, PsoSettings, Schedule, Search};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyInt};
 
 use crate::error::{setting, to_python};
 
@@ -30,9 +30,12 @@ where
     T: for<'a> FromPyObject<'a, 'py>,
 {
     match settings.get_item(name)? {
-        Some(value) => value
-            .extract::<T>()
-            .map_err(|_| PyTypeError::new_err(format!("{name} is {value:?}: wanted {wanted}"))),
+        Some(value) => value.extract::<T>().map_err(|_| {
+            if value.is_instance_of::<PyInt>() {
+                return setting(name, &value, "a smaller number"); // an integer beyond 64 bits
+            }
+            PyTypeError::new_err(format!("{name} is {value:?}: wanted {wanted}"))
+        }),
         None => Err(PyTypeError::new_err(format!("{name} is missing: wanted {wanted}"))),
     }
 }

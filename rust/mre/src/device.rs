@@ -88,16 +88,15 @@ impl Device {
                 }
             }
         }
-        match force.iter().position(|f| !f.is_finite()) {
-            None => Ok(force),
-            Some(i) => Err(Error::Recording(format!(
-                "the force of {} cannot be computed at {} s: the samples are too far apart, or the \
-                 displacement too large, for these parameters",
-                self.model.name(),
-                recording.time()[i]
-            ))
-            .in_recording(recording.name())),
-        }
+        let Some(first) = force.iter().position(|f| !f.is_finite()) else { return Ok(force) };
+        // A term that cannot be computed is infinite from the start; one that overflows has a place.
+        let place = if first == 0 { String::new() } else { format!(" at {} s", recording.time()[first]) };
+        let text = format!(
+            "the force of {} cannot be computed{place}: the samples are too far apart, or the displacement \
+             too large, for these parameters",
+            self.model.name()
+        );
+        Err(Error::Recording(text).in_recording(recording.name()))
     }
 
     /// Share of level `k` in the force at a current.

@@ -19,16 +19,26 @@ pub struct Extent {
     pub velocity: f64,
     /// Largest absolute force among the scored samples, N.
     pub force: f64,
-    /// Mean force of the scored samples, N.
-    pub mean_force: f64,
+    /// Force at rest in the middle by a least-squares line through the scored samples, N.
+    pub offset: f64,
+    /// Mean displacement of the scored samples as a share of the largest: how far the motion is off the
+    /// middle, where the offset is uncertain.
+    pub lean: f64,
     /// True where the force grows less than in proportion to the displacement.
     pub softens: bool,
 }
 
 impl Extent {
     /// For questions about parameters that do not depend on recordings.
-    pub const UNIT: Self =
-        Self { displacement: 1.0, shortest: 1.0, velocity: 1.0, force: 1.0, mean_force: 0.0, softens: false };
+    pub const UNIT: Self = Self {
+        displacement: 1.0,
+        shortest: 1.0,
+        velocity: 1.0,
+        force: 1.0,
+        offset: 0.0,
+        lean: 0.0,
+        softens: false,
+    };
 
     /// Sizes of recordings.
     ///
@@ -41,7 +51,6 @@ impl Extent {
         let farthest = |values: &[f64], so_far: f64| values.iter().fold(so_far, |far, v| v.abs().max(far));
         let mut extent =
             Self { displacement: 0.0, shortest: f64::INFINITY, velocity: 0.0, force: 0.0, ..Self::UNIT };
-        let mut count = 0.0;
         for recording in recordings {
             let scored = scored_force(recording)?;
             let stroke = farthest(recording.displacement(), 0.0);
@@ -49,39 +58,47 @@ impl Extent {
             extent.shortest = extent.shortest.min(stroke);
             extent.velocity = farthest(recording.velocity(), extent.velocity);
             extent.force = farthest(scored, extent.force);
-            extent.mean_force += scored.iter().sum::<f64>();
-            count += scored.len() as f64;
         }
-        if extent.force == 0.0 {
-            return Err(Error::Recording("the force is zero throughout: nothing to identify".into()));
+        if extent.velocity == 0.0 {
+            let text = "velocity is zero throughout, though the displacement changes";
+            return Err(Error::Recording(text.into()).in_recording(recordings[0].name()));
         }
-        extent.mean_force /= count;
-        extent.softens = softens(recordings, &extent)?;
+        extent.fit(recordings)?;
         Ok(extent)
+    }
+
+    /// Offset, lean and softening from a least-squares fit of `c v + k x + a sinh(x / X) + F0`; the
+    /// offset from the same without the sinh term.
+    fn fit(&mut self, recordings: &[Arc<Recording>]) -> Result<()> {
+        let (mut matrix, mut right) = (Matrix4::zeros(), Vector4::zeros());
+        for recording in recordings {
+            let force = scored_force(recording)?;
+            for (i, f) in recording.scored().zip(force) {
+                let x = recording.displacement()[i] / self.displacement;
+                let row = Vector4::new(recording.velocity()[i] / self.velocity, x, 1.0, sinh(x));
+                matrix += row * row.transpose();
+                right += row * *f;
+            }
+        }
+        let line = matrix.fixed_view::<3, 3>(0, 0).into_owned().cholesky();
+        let offset = line.map_or(0.0, |factor| factor.solve(&right.fixed_rows::<3>(0).into_owned())[2]);
+        self.offset = offset.clamp(-self.force, self.force);
+        self.lean = (matrix[(1, 2)] / matrix[(2, 2)]).abs();
+        self.softens = matrix.cholesky().is_some_and(|factor| factor.solve(&right)[3] < 0.0);
+        Ok(())
     }
 }
 
 fn scored_force(recording: &Recording) -> Result<&[f64]> {
-    match recording.force() {
-        Some(force) => Ok(&force[recording.scored()]),
-        None => {
-            Err(Error::Recording("no force: an identification needs one".into())
-                .in_recording(recording.name()))
+    let problem = match recording.force() {
+        None => "no force: an identification needs one",
+        Some(force) => {
+            let scored = &force[recording.scored()];
+            if scored.iter().any(|f| *f != 0.0) {
+                return Ok(scored);
+            }
+            "the force is zero throughout: nothing to identify"
         }
-    }
-}
-
-/// Sign of the sinh term in a least-squares fit of `c v + k x + a sinh(x / X) + F0`.
-fn softens(recordings: &[Arc<Recording>], extent: &Extent) -> Result<bool> {
-    let (mut matrix, mut right) = (Matrix4::zeros(), Vector4::zeros());
-    for recording in recordings {
-        let force = scored_force(recording)?;
-        for (i, f) in recording.scored().zip(force) {
-            let x = recording.displacement()[i] / extent.displacement;
-            let row = Vector4::new(recording.velocity()[i] / extent.velocity, x, sinh(x), 1.0);
-            matrix += row * row.transpose();
-            right += row * *f;
-        }
-    }
-    Ok(matrix.cholesky().is_some_and(|factor| factor.solve(&right)[2] < 0.0))
+    };
+    Err(Error::Recording(problem.into()).in_recording(recording.name()))
 }

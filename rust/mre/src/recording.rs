@@ -190,6 +190,9 @@ impl Recording {
     /// Fewer than [`MIN_SAMPLES`] samples or no motion left.
     pub fn cut(&self, start: f64, stop: f64) -> Result<Self> {
         let time = self.time();
+        if start.is_nan() || stop.is_nan() {
+            return Err(Error::setting("cut", format!("{start} s to {stop} s"), "two numbers"));
+        }
         let range = time.partition_point(|t| *t < start)..time.partition_point(|t| *t <= stop);
         if range.len() < MIN_SAMPLES {
             return Err(Error::setting(
@@ -219,7 +222,8 @@ impl Recording {
             name: self.series.name.clone(),
         })?;
         cut.velocity_window = self.velocity_window;
-        Ok(cut)
+        let scored = self.scored.start.max(range.start)..self.scored.end.min(range.end);
+        cut.with_scored(scored.start.saturating_sub(range.start)..scored.end.saturating_sub(range.start))
     }
 }
 

@@ -18,13 +18,14 @@ pub struct Offset;
 
 impl Term for Offset {
     fn coefficient(&self, extent: &Extent) -> Parameter {
+        let width = (0.25 + extent.lean) * extent.force;
         Parameter {
             name: "F0".into(),
             unit: "N",
             smallest: f64::NEG_INFINITY,
             largest: f64::INFINITY,
-            lower: extent.mean_force - 0.25 * extent.force,
-            upper: extent.mean_force + 0.25 * extent.force,
+            lower: extent.offset - width,
+            upper: extent.offset + width,
             scale: Scale::Linear,
         }
     }

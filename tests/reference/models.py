@@ -1,0 +1,192 @@
+"""Plain twins of the models, the velocity and the fitness: slow, scalar, written from the equations."""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Levels = Sequence[tuple[float | None, Sequence[float]]]
+
+# Table 2 of Yu, Li, Li (ISARC 2014): 0 A, 1 Hz, 2 mm; c0, k0, alpha, beta, F0.
+TABLE_2 = (0.354, 3.572, 4.579, 0.302, 0.001)
+
+# Sub-steps of one interval beyond which a candidate counts as impossible to simulate.
+MOST_SUBSTEPS = 1000
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Displacement in mm and its exact velocity in mm/s over the time in s."""
+
+    time: Array
+    displacement: Array
+    velocity: Array
+
+    def __len__(self) -> int:
+        return len(self.time)
+
+
+def sine(amplitude: float, frequency: float, rate: float, duration: float) -> Motion:
+    t = np.arange(round(rate * duration)) / rate
+    omega = 2.0 * math.pi * frequency
+    return Motion(t, amplitude * np.sin(omega * t), amplitude * omega * np.cos(omega * t))
+
+
+def multisine(seed: int, peak: float, frequencies: Array, time: Array) -> Motion:
+    """Sines of falling amplitude and random phase, scaled to a peak displacement."""
+    phases = np.random.default_rng(seed).uniform(0.0, 2.0 * math.pi, len(frequencies))
+    x, v = np.zeros(len(time)), np.zeros(len(time))
+    for frequency, phase in zip(frequencies, phases, strict=True):
+        omega = 2.0 * math.pi * frequency
+        x += np.sin(omega * time + phase) / frequency
+        v += omega * np.cos(omega * time + phase) / frequency
+    scale = peak / np.abs(x).max()
+    return Motion(time, scale * x, scale * v)
+
+
+def jittered(seed: int, rate: float, duration: float) -> Array:
+    """Increasing times, each up to 0.3 sampling periods away from its place."""
+    n = round(rate * duration)
+    away = np.random.default_rng(seed).uniform(-0.3, 0.3, n)
+    times: Array = (np.arange(n) + away) / rate
+    return times
+
+
+def local_cubic(time: Array, displacement: Array, half: int) -> Array:
+    """Derivative of the cubic fitted to 2 half + 1 samples; the windows at both ends are shifted inwards."""
+    n = len(time)
+    v = np.empty(n)
+    for i in range(n):
+        first = min(max(0, i - half), n - 2 * half - 1)
+        near = slice(first, first + 2 * half + 1)
+        u = time[near] - time[i]
+        reach = np.abs(u).max()
+        v[i] = np.polynomial.polynomial.polyfit(u / reach, displacement[near], 3)[1] / reach
+    return v
+
+
+def kelvin_voigt(p: Sequence[float], motion: Motion) -> Array:
+    c0, k0, offset = p
+    return np.array(
+        [c0 * v + k0 * x + offset for x, v in zip(motion.displacement, motion.velocity, strict=True)]
+    )
+
+
+def sinh(p: Sequence[float], motion: Motion) -> Array:
+    c0, k0, alpha, beta, offset = p
+    return np.array(
+        [
+            c0 * v + k0 * x + alpha * math.sinh(beta * x) + offset
+            for x, v in zip(motion.displacement, motion.velocity, strict=True)
+        ]
+    )
+
+
+def substeps(rho: float, sigma: float, n: float, motion: Motion) -> list[int]:
+    """Equal sub-steps of every interval between two samples."""
+    counts = []
+    for i in range(len(motion) - 1):
+        fastest = max(abs(motion.velocity[i]), abs(motion.velocity[i + 1]))
+        dt = motion.time[i + 1] - motion.time[i]
+        counts.append(max(1, math.ceil(rho * n * max(1.0, 2.0 * sigma - 1.0) * fastest * dt / 0.5)))
+    return counts
+
+
+def runge_kutta(slope: Callable[[float, float], float], counts: Sequence[int], motion: Motion) -> Array:
+    """State from rest at every sample; `slope(velocity, state)`, velocity linear between the samples."""
+    w = 0.0
+    states = [w]
+    for i, count in enumerate(counts):
+        v0, v1 = float(motion.velocity[i]), float(motion.velocity[i + 1])
+        h = float(motion.time[i + 1] - motion.time[i]) / count
+        for j in range(count):
+            begin = v0 + (v1 - v0) * j / count
+            middle = v0 + (v1 - v0) * (j + 0.5) / count
+            end = v0 + (v1 - v0) * (j + 1) / count
+            k1 = slope(begin, w)
+            k2 = slope(middle, w + 0.5 * h * k1)
+            k3 = slope(middle, w + 0.5 * h * k2)
+            k4 = slope(end, w + h * k3)
+            w += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
+        states.append(w)
+    return np.array(states)
+
+
+def bouc_wen(p: Sequence[float], motion: Motion) -> Array:
+    c0, kx, kw, rho, sigma, n, offset = p
+
+    def slope(v: float, w: float) -> float:
+        hardening = sigma * abs(v) * math.pow(abs(w), n - 1.0) * w
+        return rho * (v - hardening + (sigma - 1.0) * v * math.pow(abs(w), n))
+
+    counts = substeps(rho, sigma, n, motion)
+    if max(counts) > MOST_SUBSTEPS:
+        raise OverflowError("too many sub-steps")
+    w = runge_kutta(slope, counts, motion)
+    force: Array = c0 * motion.velocity + kx * motion.displacement + kw * w + offset
+    return force
+
+
+def classical_bouc_wen(
+    p: tuple[float, float, float, float, float],
+    n: float,
+    c0: float,
+    counts: Sequence[int],
+    motion: Motion,
+    scale: float = 1.0,
+) -> Array:
+    """Eq. 1 and 2 of the paper, with z, A, beta and gamma rescaled to give the same force."""
+    k0, alpha, a, beta, gamma = p
+    shrink = math.pow(scale, 1.0 - n)
+    a, beta, gamma = a * scale, beta * shrink, gamma * shrink
+
+    def slope(v: float, z: float) -> float:
+        hardening = beta * abs(v) * math.pow(abs(z), n - 1.0) * z
+        return a * v - hardening - gamma * v * math.pow(abs(z), n)
+
+    z = runge_kutta(slope, counts, motion) / scale
+    force: Array = c0 * motion.velocity + alpha * k0 * motion.displacement + (1.0 - alpha) * k0 * z
+    return force
+
+
+MODELS: dict[str, Callable[[Sequence[float], Motion], Array]] = {
+    "kelvin_voigt": kelvin_voigt,
+    "sinh": sinh,
+    "bouc_wen": bouc_wen,
+}
+
+
+def simulate(model: str, levels: Levels, motion: Motion, current: Array | float | None = None) -> Array:
+    """Force at every sample, linear in the current between the neighbouring levels."""
+    if len(levels) == 1:
+        return MODELS[model](levels[0][1], motion)
+    rows = sorted((float("nan") if at is None else at, list(p)) for at, p in levels)
+    at = [a for a, _ in rows]
+    forces = [MODELS[model](p, motion) for _, p in rows]
+    assert current is not None
+    currents = np.broadcast_to(current, len(motion))
+    out = np.empty(len(motion))
+    for i, amps in enumerate(currents):
+        if amps <= at[0]:
+            out[i] = forces[0][i]
+        elif amps >= at[-1]:
+            out[i] = forces[-1][i]
+        else:
+            j = max(k for k in range(len(at)) if at[k] <= amps)
+            share = (amps - at[j]) / (at[j + 1] - at[j])
+            out[i] = (1.0 - share) * forces[j][i] + share * forces[j + 1][i]
+    return out
+
+
+def fitness(
+    forces: Sequence[tuple[Array, Array]], scored: Sequence[tuple[int, int]], weights: Sequence[float]
+) -> float:
+    """H = sum w SSE / sum w n in N^2 over the scored samples of (measured, simulated) forces."""
+    above = below = 0.0
+    for (measured, simulated), (start, stop), weight in zip(forces, scored, weights, strict=True):
+        above += weight * math.fsum((measured[i] - simulated[i]) ** 2 for i in range(start, stop))
+        below += weight * (stop - start)
+    return above / below

@@ -1,0 +1,92 @@
+"""Ctrl-C in a long job: it ends soon, raises or returns as asked, and files are whole."""
+
+import json
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import pytest
+from mre_core import Model
+from rig import BOUC_WEN, command, everything_in, made_of, motion, record, run_script, write_csv
+
+LONG_RUN = 10**6
+# A process that a shell has put in the background ignores Ctrl-C.
+LISTEN = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)"
+# Long enough that Ctrl-C has to find its way into the middle of a generation.
+LONG_JOB = f"""
+import os, threading, signal
+import numpy as np, mre_core
+{LISTEN}
+t = np.arange(200_000) / 256
+recording = mre_core.Recording(t, 4 * np.sin(6 * t), 50 * np.sin(6 * t + 0.5))
+problem = mre_core.Problem(recording, "bouc_wen")
+threading.Timer(0.7, os.kill, (os.getpid(), signal.SIGINT)).start()
+"""
+
+
+def test_interrupt_raises() -> None:
+    code = f"""
+try:
+    mre_core.mafsa(problem, seed=1, max_iterations={LONG_RUN})
+except KeyboardInterrupt:
+    print("KeyboardInterrupt")
+"""
+    run = run_script(LONG_JOB + code)
+    assert (run.returncode, run.stdout, run.stderr) == (0, "KeyboardInterrupt\n", "")
+
+
+@pytest.mark.parametrize("swarm", ["mafsa", "afsa", "pso"])
+def test_interrupt_returns_the_best_so_far(swarm: str) -> None:
+    code = f"""
+recording = recording.cut(0, 20)
+problem = mre_core.Problem(recording, "bouc_wen")
+result = mre_core.{swarm}(problem, seed=1, max_iterations={LONG_RUN}, on_interrupt="return")
+assert problem.fitness(result.x) == result.fun < np.inf, result
+assert not result.success
+print(result.reason)
+"""
+    run = run_script(LONG_JOB + code)
+    assert (run.returncode, run.stdout, run.stderr) == (0, "interrupted\n", "")
+
+
+def test_interrupt_of_a_function_of_the_user() -> None:
+    code = f"""
+def slow(points):
+    import time
+    time.sleep(0.01)
+    return (points**2).sum(axis=1)
+result = mre_core.pso(slow, [(-1, 1)], seed=1, max_iterations={LONG_RUN}, on_interrupt="return")
+print(result.reason)
+"""
+    run = run_script(LONG_JOB + code)
+    assert (run.returncode, run.stdout, run.stderr) == (0, "interrupted\n", "")
+
+
+def test_interrupt_of_the_command(tmp_path: Path) -> None:
+    moved = motion(cycles=40, rate=256)
+    for current in (0, 1):
+        write_csv(tmp_path / f"{current}A.csv", record(made_of("bouc_wen", BOUC_WEN), moved, noise=0.1))
+    out = tmp_path / "result"
+    files = [tmp_path / "0A.csv", tmp_path / "1A.csv"]
+    options = ["--model", "bouc_wen", "--seed", "1", "--name-pattern", "{current}A", "--out", str(out)]
+    arguments = command("identify", *files, *options, "--iterations", str(LONG_RUN), before=LISTEN)
+    job = subprocess.Popen(arguments, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    try:
+        # The work begins when the place for the results is there.
+        while job.poll() is None and not list(out.glob(".mre-core-*")):
+            time.sleep(0.02)
+        time.sleep(0.7)
+        job.send_signal(signal.SIGINT)
+        shown, error = job.communicate(timeout=60)
+    finally:
+        job.kill()
+    assert (job.returncode, error) == (130, "")
+    assert "stopped by interrupted" in shown
+    # Whole files of what was found so far; the current that was not begun has neither level nor figure.
+    assert everything_in(out) == {"model.json", "identification.json", "fit_0A.png"}
+    content = json.loads((out / "model.json").read_text(encoding="utf-8"))
+    assert content["interrupted"] is True
+    assert [level["current_A"] for level in content["levels"]] == [0.0]
+    assert json.loads((out / "identification.json").read_text(encoding="utf-8"))["interrupted"] is True
+    assert Model.load(out / "model.json").name == "bouc_wen"
