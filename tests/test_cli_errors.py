@@ -1,6 +1,7 @@
 """Bad input to the commands: exit status 2, one line on standard error, nothing written."""
 
 import json
+import os
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from types import MappingProxyType
@@ -236,3 +237,23 @@ def test_one_line_exit_2_and_nothing_written(
     for piece in case.pieces:
         assert piece in err
     assert everything_in(tmp_path) == before
+
+
+def test_a_device_is_not_replaced(cli: Cli, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "a.csv").write_bytes(instead(1, HEADER))
+    (tmp_path / "model.json").write_bytes(content())
+    os.mkfifo(tmp_path / "pipe")
+    monkeypatch.chdir(tmp_path)
+    status, out, err = cli("simulate", "model.json", "a.csv", "--out", "pipe")
+    assert (status, out) == (2, "")
+    assert "pipe: is no regular file" in err
+    assert (tmp_path / "pipe").is_fifo()
+
+
+def test_a_null_byte_in_a_name(cli: Cli, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "a.csv").write_bytes(instead(1, HEADER))
+    (tmp_path / "c.toml").write_text('out = "a\\u0000b"')
+    monkeypatch.chdir(tmp_path)
+    status, _, err = cli("identify", "a.csv", "--model", "sinh", "--iterations", "1", "--config", "c.toml")
+    assert status == 2
+    assert err.count("\n") == 1

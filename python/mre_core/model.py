@@ -199,8 +199,9 @@ def _outside(model: Model, recording: Recording) -> list[str]:
         low, high = float(current.min()), float(current.max())
         margin = 0.02 + 0.02 * max(abs(value) for value in known)
         if low < min(known) - margin or high > max(known) + margin:
+            span = f"goes from {low:.4g} A to {high:.4g} A" if low < high else f"is {low:.4g} A"
             found.append(
-                f"current goes from {low:.4g} A to {high:.4g} A, tested from {min(known):.4g} A to"
+                f"current {span}, tested from {min(known):.4g} A to"
                 f" {max(known):.4g} A: the force of the nearest tested current is taken"
             )
     name = f"recording '{recording.name}': " if recording.name else ""

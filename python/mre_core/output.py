@@ -76,8 +76,9 @@ def write_file(path: str | os.PathLike[str], write: Callable[[Path], None]) -> N
         It cannot be written.
     """
     target = Path(path)
-    if target.is_dir():
-        raise InputError("is a folder", file=str(target), wanted="the name of a file to write")
+    if target.exists() and not target.is_file():
+        what = "a folder" if target.is_dir() else "no regular file"
+        raise InputError(f"is {what}", file=str(target), wanted="the name of a file to write")
     with staged(target.parent) as stage:
         write(stage.path(target.name))
 

@@ -53,6 +53,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _fail(error.format_message(), 2)
     except MreError as error:
         return _fail(str(error), 2)
+    except ValueError as error:
+        if "null byte" not in str(error):
+            raise
+        return _fail("a file name holds a null byte: wanted a name without", 2)
     except (KeyboardInterrupt, click.Abort):
         return _fail("interrupted", 130)
     except BrokenPipeError:  # whoever read the output has seen enough
