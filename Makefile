@@ -42,7 +42,7 @@ install: $(STAMP)
 $(STAMP): pyproject.toml Cargo.toml Cargo.lock $(shell find rust python -name '*.rs' -o -name '*.toml' -o -name '*.py' -o -name '*.pyi')
 	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet "maturin>=1.9.4,<2"
-	$(BIN)/python -m pip install --quiet --no-build-isolation --editable '.[dev]'
+	MATURIN_PEP517_ARGS=--locked $(BIN)/python -m pip install --quiet --no-build-isolation --editable '.[dev]'
 	touch $(STAMP)
 
 clean:
