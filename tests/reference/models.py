@@ -87,11 +87,12 @@ def sinh(p: Sequence[float], motion: Motion) -> Array:
 
 def substeps(rho: float, sigma: float, n: float, motion: Motion) -> list[int]:
     """Equal sub-steps of every interval between two samples."""
+    stiffness = 2.0 ** math.ceil(math.log2(rho * n * max(1.0, 2.0 * sigma - 1.0)))
     counts = []
     for i in range(len(motion) - 1):
         fastest = max(abs(motion.velocity[i]), abs(motion.velocity[i + 1]))
         dt = motion.time[i + 1] - motion.time[i]
-        counts.append(max(1, math.ceil(rho * n * max(1.0, 2.0 * sigma - 1.0) * fastest * dt / 0.5)))
+        counts.append(max(1, math.ceil(stiffness * fastest * dt / 0.5)))
     return counts
 
 

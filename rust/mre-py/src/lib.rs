@@ -7,6 +7,7 @@ use pyo3::prelude::*;
 mod array;
 mod device;
 mod error;
+mod fit;
 mod problem;
 mod recording;
 mod run;
@@ -19,6 +20,8 @@ mod _core {
     use crate::device::{check, classical, models, parameters, simulate};
     #[pymodule_export]
     use crate::error::MreError;
+    #[pymodule_export]
+    use crate::fit::{fit_exact, fit_hybrid};
     #[pymodule_export]
     use crate::problem::Problem;
     #[pymodule_export]

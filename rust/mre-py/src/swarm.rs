@@ -23,7 +23,8 @@ pub(crate) struct Swarm {
     state: Mutex<Box<dyn Core>>,
 }
 
-fn name_of(reason: StopReason, ended: Ended) -> &'static str {
+/// The name of a reason in Python.
+pub(crate) fn name_of(reason: StopReason, ended: Ended) -> &'static str {
     match (reason, ended) {
         (StopReason::Interrupted, Ended::ByCallback) => "callback",
         (StopReason::Interrupted, _) => "interrupted",

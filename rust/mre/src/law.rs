@@ -88,6 +88,52 @@ impl Law {
         vec![Level { current: Some(*low), values: first }, Level { current: Some(*high), values: second }]
     }
 
+    /// True for the parameters that are shapes, false for coefficients.
+    pub(crate) fn shapes(&self, model: &Model) -> Vec<bool> {
+        let plain = model.terms().iter().flat_map(|term| {
+            std::iter::once(false).chain(term.shape(&Extent::UNIT).into_iter().map(|_| true))
+        });
+        match self {
+            Self::Shared => plain.collect(),
+            Self::Affine { split, .. } => {
+                plain.zip(split).flat_map(|(shape, two)| vec![shape; if *two { 2 } else { 1 }]).collect()
+            }
+        }
+    }
+
+    /// Columns of the coefficients, in their order among the parameters, for given shapes.
+    pub(crate) fn columns(&self, model: &Model, recording: &Recording, values: &[f64]) -> Vec<Vec<f64>> {
+        let level = &self.levels(values, None)[0].values;
+        let (mut columns, mut next) = (Vec::new(), 0);
+        for term in model.terms() {
+            let shape = next + 1..next + 1 + term.shape(&Extent::UNIT).len();
+            let mut column = vec![0.0; recording.len()];
+            term.column(recording, &level[shape.clone()], &mut column);
+            if matches!(self, Self::Affine { .. }) && term.follows_current() {
+                for share in self.shares(recording) {
+                    columns.push(column.iter().zip(share).map(|(c, s)| c * s).collect());
+                }
+            } else {
+                columns.push(column);
+            }
+            next = shape.end;
+        }
+        columns
+    }
+
+    /// Shares of the lowest and the highest current in every sample.
+    fn shares(&self, recording: &Recording) -> [Vec<f64>; 2] {
+        let Self::Affine { low, high, .. } = self else { return [vec![1.0; recording.len()], Vec::new()] };
+        let share = |i: f64| ((i - low) / (high - low)).clamp(0.0, 1.0);
+        let upper: Vec<f64> = match recording.current() {
+            Condition::Series(current) if recording.current().varies() => {
+                current.iter().map(|i| share(*i)).collect()
+            }
+            known => vec![share(known.level().unwrap_or(*low)); recording.len()],
+        };
+        [upper.iter().map(|w| 1.0 - w).collect(), upper]
+    }
+
     /// Add the force of these values to the scratch buffer.
     pub(crate) fn add_force(
         &self,
@@ -97,18 +143,10 @@ impl Law {
         scratch: &mut Scratch,
     ) {
         let Scratch { force, column } = scratch;
-        let Self::Affine { low, high, .. } = self else {
+        if *self == Self::Shared {
             return model.add_force(recording, values, None, column, force);
-        };
-        let share = |i: f64| ((i - low) / (high - low)).clamp(0.0, 1.0);
-        let upper: Vec<f64> = match recording.current() {
-            Condition::Series(current) if recording.current().varies() => {
-                current.iter().map(|i| share(*i)).collect()
-            }
-            known => vec![share(known.level().unwrap_or(*low)); recording.len()],
-        };
-        let lower: Vec<f64> = upper.iter().map(|w| 1.0 - w).collect();
-        for (level, weight) in self.levels(values, None).iter().zip([lower, upper]) {
+        }
+        for (level, weight) in self.levels(values, None).iter().zip(self.shares(recording)) {
             model.add_force(recording, &level.values, Some(&weight), column, force);
         }
     }

@@ -33,6 +33,7 @@
 pub mod device;
 pub mod error;
 pub mod extent;
+pub mod fit;
 pub mod fitness;
 mod kernel;
 pub mod law;

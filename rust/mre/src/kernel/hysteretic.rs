@@ -38,10 +38,12 @@ impl Plan {
     }
 }
 
-/// Rate at which the hysteretic variable can change with itself, per mm.
-#[inline(always)]
+/// Rate at which the hysteretic variable can change with itself, per mm, rounded up to a power of two.
+///
+/// The number of sub-steps follows from it. Rounded, it stays the same in wide ranges of the parameters,
+/// so that the fitness is a smooth function of them but for few small jumps.
 pub(crate) fn stiffness([rho, sigma, n]: [f64; 3]) -> f64 {
-    rho * n * (2.0 * sigma - 1.0).max(1.0)
+    (rho * n * (2.0 * sigma - 1.0).max(1.0)).log2().ceil().exp2()
 }
 
 /// `dw/dt` of the normalised Bouc-Wen law.

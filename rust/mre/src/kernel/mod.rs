@@ -6,11 +6,14 @@
 // Lane loops are written as index loops over arrays, inlined into one function per instruction set.
 #![allow(clippy::inline_always, clippy::needless_range_loop)]
 
+pub(crate) mod bouc_wen_gram;
 mod bouc_wen_rk4;
 mod dispatch;
 pub(crate) mod elementary;
 pub(crate) mod hysteretic;
+mod lanes;
 mod sinh_direct;
 
-pub(crate) use bouc_wen_rk4::{BoucWenRk4, LANES};
+pub(crate) use bouc_wen_rk4::BoucWenRk4;
+pub(crate) use lanes::LANES;
 pub(crate) use sinh_direct::SinhDirect;

@@ -1,0 +1,8 @@
+//! Exact fits: linear coefficients by projection, shapes by search and polish.
+
+mod bounded;
+mod descent;
+mod projection;
+mod solve;
+
+pub use solve::{Fit, exact, hybrid};

@@ -1,0 +1,172 @@
+//! Variable projection (Golub and Pereyra 1973, <https://doi.org/10.1137/0710036>): for given shapes the
+//! best coefficients in their box are known exactly, so that only the shapes are searched.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+use super::bounded;
+use crate::fitness::Problem;
+use crate::kernel::LANES;
+use crate::kernel::bouc_wen_gram::products;
+use crate::kernel::hysteretic::Plan;
+use crate::law::Law;
+
+/// A problem seen as a function of its shapes alone, on the unit box.
+pub(crate) struct Projection<'a> {
+    problem: &'a Problem,
+    /// Places of the shapes among the parameters, and of the coefficients.
+    shapes: Vec<usize>,
+    coefficients: Vec<usize>,
+    plans: Vec<Plan>,
+    cancel: &'a AtomicBool,
+}
+
+/// Gram matrix of the columns and the force, the force last.
+type Gram = DMatrix<f64>;
+
+impl<'a> Projection<'a> {
+    pub(crate) fn new(problem: &'a Problem, cancel: &'a AtomicBool) -> Self {
+        let is_shape = problem.law().shapes(problem.model());
+        let places = |wanted: bool| (0..is_shape.len()).filter(|i| is_shape[*i] == wanted).collect();
+        let plans = if problem.model().name() == "bouc_wen" {
+            problem.recordings().iter().map(|r| Plan::new(r)).collect()
+        } else {
+            Vec::new()
+        };
+        Self { problem, shapes: places(true), coefficients: places(false), plans, cancel }
+    }
+
+    /// Number of shapes.
+    pub(crate) fn dimension(&self) -> usize {
+        self.shapes.len()
+    }
+
+    /// Cost in N^2 of the best coefficients for each row of shapes in the unit box; NaN once cancelled.
+    pub(crate) fn costs(&self, unit: &[f64]) -> Vec<f64> {
+        let d = self.dimension();
+        if d == 0 {
+            return vec![self.solve(&[]).1];
+        }
+        let rows: Vec<Vec<f64>> = unit.chunks_exact(d).map(|row| self.physical(row)).collect();
+        if self.plans.is_empty() || *self.problem.law() != Law::Shared {
+            let cost =
+                |row: &Vec<f64>| if self.cancelled() { f64::NAN } else { self.best(row, &self.gram(row)).1 };
+            return rows.par_iter().map(cost).collect();
+        }
+        rows.par_chunks(LANES)
+            .flat_map_iter(|block| {
+                if self.cancelled() {
+                    return vec![f64::NAN; block.len()];
+                }
+                let grams = self.lane_grams(block);
+                block.iter().zip(grams).map(|(row, gram)| self.best(row, &gram).1).collect::<Vec<_>>()
+            })
+            .collect()
+    }
+
+    fn cancelled(&self) -> bool {
+        self.cancel.load(Ordering::Relaxed)
+    }
+
+    /// All parameters for shapes in the unit box, with the best coefficients, and their cost.
+    pub(crate) fn solve(&self, unit: &[f64]) -> (Vec<f64>, f64) {
+        let row = self.physical(unit);
+        self.best(&row, &self.gram(&row))
+    }
+
+    /// Shapes of given parameters in the unit box.
+    pub(crate) fn unit_shapes(&self, parameters: &[f64]) -> Vec<f64> {
+        let mut unit = vec![0.0; parameters.len()];
+        self.problem.bounds().to_unit(parameters, &mut unit);
+        self.shapes.iter().map(|i| unit[*i]).collect()
+    }
+
+    fn physical(&self, unit: &[f64]) -> Vec<f64> {
+        let bounds = self.problem.bounds();
+        let mut all = vec![0.0; bounds.len()];
+        for (place, u) in self.shapes.iter().zip(unit) {
+            all[*place] = *u;
+        }
+        let mut out = vec![0.0; bounds.len()];
+        bounds.to_physical(&all, &mut out);
+        out
+    }
+
+    /// Best coefficients for a Gram matrix, put into a row of parameters.
+    fn best(&self, row: &[f64], gram: &Gram) -> (Vec<f64>, f64) {
+        let k = self.coefficients.len();
+        if gram.iter().any(|g| !g.is_finite()) {
+            return (row.to_vec(), f64::INFINITY);
+        }
+        let bounds = self.problem.bounds();
+        let pick = |values: &[f64]| self.coefficients.iter().map(|i| values[*i]).collect::<Vec<_>>();
+        let matrix = gram.view((0, 0), (k, k)).into_owned();
+        let right = DVector::from_fn(k, |i, _| gram[(i, k)]);
+        let found = bounded::minimise(&matrix, &right, &pick(bounds.lower()), &pick(bounds.upper()));
+        let b = DVector::from_vec(found);
+        let cost = (gram[(k, k)] - 2.0 * b.dot(&right) + b.dot(&(&matrix * &b))).max(0.0);
+        let mut parameters = row.to_vec();
+        for (place, value) in self.coefficients.iter().zip(&b) {
+            parameters[*place] = *value;
+        }
+        (parameters, cost)
+    }
+
+    /// Gram matrix column by column: any model, any law.
+    fn gram(&self, row: &[f64]) -> Gram {
+        let k = self.coefficients.len();
+        let mut gram = DMatrix::zeros(k + 1, k + 1);
+        for (recording, weight) in self.problem.recordings().iter().zip(self.problem.weights()) {
+            let mut columns = self.problem.law().columns(self.problem.model(), recording, row);
+            columns.push(recording.force().unwrap_or_default().to_vec());
+            let scored = recording.scored();
+            for i in 0..=k {
+                for j in 0..=i {
+                    let (a, b) = (&columns[i][scored.clone()], &columns[j][scored.clone()]);
+                    gram[(i, j)] += weight * a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+                }
+            }
+        }
+        gram.fill_upper_triangle_with_lower_triangle();
+        gram
+    }
+
+    /// Gram matrices of up to [`LANES`] Bouc-Wen candidates, simulated side by side. Columns in the order
+    /// of the coefficients: v, x, w, 1.
+    fn lane_grams(&self, rows: &[Vec<f64>]) -> Vec<Gram> {
+        let shapes: Vec<[f64; 3]> = rows.iter().map(|row| [row[3], row[4], row[5]]).collect();
+        let mut grams = vec![DMatrix::zeros(5, 5); rows.len()];
+        for ((recording, plan), weight) in
+            self.problem.recordings().iter().zip(&self.plans).zip(self.problem.weights())
+        {
+            let sums = products(recording, plan, &shapes);
+            let fixed = fixed_products(recording);
+            for (l, gram) in grams.iter_mut().enumerate() {
+                *gram += &fixed * *weight;
+                for (place, sum) in [(0, 0), (1, 1), (3, 2), (4, 3)] {
+                    gram[(2, place)] += weight * sums[sum][l];
+                    gram[(place, 2)] = gram[(2, place)];
+                }
+                gram[(2, 2)] += weight * sums[4][l];
+            }
+        }
+        grams
+    }
+}
+
+/// Products of v, x, 1 and F over the scored samples, in the places of [`Projection::lane_grams`].
+fn fixed_products(recording: &crate::recording::Recording) -> Gram {
+    let force = recording.force().unwrap_or_default();
+    let mut gram = DMatrix::zeros(5, 5);
+    for i in recording.scored() {
+        let row = [recording.velocity()[i], recording.displacement()[i], 0.0, 1.0, force[i]];
+        for a in 0..5 {
+            for b in 0..5 {
+                gram[(a, b)] += row[a] * row[b];
+            }
+        }
+    }
+    gram
+}

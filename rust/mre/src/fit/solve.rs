@@ -1,0 +1,142 @@
+//! The exact optimum of a problem, and the hybrid of a swarm with it.
+
+use std::sync::atomic::AtomicBool;
+
+use super::descent::{Point, descend};
+use super::projection::Projection;
+use crate::error::Result;
+use crate::fitness::Problem;
+use crate::swarm::{
+    Budget, Crowd, FishSettings, FishSwarm, Monitor, Neighbourhood, Schedule, Search, StopReason, Swarm, run,
+};
+
+/// Points of the first scan along each shape, by the number of shapes.
+const SCAN: [usize; 4] = [0, 96, 16, 8];
+/// Local minima of the scan from which is descended.
+const STARTS: usize = 8;
+
+/// Outcome of a fit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fit {
+    /// All parameters, in the problem's order.
+    pub values: Vec<f64>,
+    /// Their fitness in N^2.
+    pub cost: f64,
+    /// Shapes for which the best coefficients were found.
+    pub evaluations: u64,
+    /// Why the fit stopped.
+    pub reason: StopReason,
+}
+
+/// Scan the shapes, descend from the best places, solve the coefficients exactly.
+///
+/// After `cancel` is set it ends soon, with the best so far.
+pub fn exact(problem: &Problem, cancel: &AtomicBool) -> Fit {
+    let projection = Projection::new(problem, cancel);
+    let d = projection.dimension();
+    let mut scan = Vec::new();
+    let per_axis = SCAN.get(d).copied().unwrap_or(5);
+    for code in 0..per_axis.pow(d as u32) {
+        scan.extend(
+            (0..d)
+                .map(|i| (code / per_axis.pow(i as u32) % per_axis) as f64 + 0.5)
+                .map(|k| k / per_axis as f64),
+        );
+    }
+    let values = projection.costs(&scan);
+    let mut points: Vec<Point> = values
+        .iter()
+        .enumerate()
+        .map(|(i, v)| Point { at: scan[i * d..(i + 1) * d].to_vec(), value: *v })
+        .collect();
+    points.sort_by(|a, b| a.value.total_cmp(&b.value));
+    let starts = separate(&points, 1.5 / per_axis.max(1) as f64);
+    polish(
+        problem,
+        &projection,
+        starts,
+        0.5 / per_axis.max(1) as f64,
+        values.len() as u64,
+        StopReason::Iterations,
+    )
+}
+
+/// MAFSA over the shapes with exact coefficients, then descent.
+///
+/// # Errors
+/// Never for the settings used here.
+pub fn hybrid(
+    problem: &Problem,
+    seed: u64,
+    start: Option<&[f64]>,
+    budget: &Budget,
+    monitor: &mut dyn Monitor,
+    cancel: &AtomicBool,
+) -> Result<Fit> {
+    let projection = Projection::new(problem, cancel);
+    let d = projection.dimension();
+    if d == 0 {
+        return Ok(exact(problem, cancel));
+    }
+    let settings = FishSettings {
+        fish: 12,
+        iterations: 15,
+        try_number: 12,
+        delta: 0.6,
+        visual: 0.5,
+        step: 0.25,
+        schedule: Schedule::FromStart { visual_min: 0.002, step_min: 0.0003, p: 5 },
+        neighbourhood: Neighbourhood::Swarm,
+        crowd: Crowd::Literal,
+        search: Search::Best,
+    };
+    let start = start.map(|parameters| projection.unit_shapes(parameters));
+    let mut swarm = FishSwarm::new(settings, d, seed, start.as_deref())?;
+    let mut seen: Vec<Point> = Vec::new();
+    let mut evaluate = |rows: &[f64], costs: &mut [f64]| {
+        costs.copy_from_slice(&projection.costs(rows));
+        seen.extend(
+            rows.chunks_exact(d).zip(costs.iter()).map(|(row, c)| Point { at: row.to_vec(), value: *c }),
+        );
+    };
+    let reason = run(&mut swarm, &mut evaluate, d, budget, monitor);
+    seen.sort_by(|a, b| a.value.total_cmp(&b.value));
+    let starts = separate(&seen, 0.1);
+    Ok(polish(problem, &projection, starts, 0.02, swarm.bulletin().evaluations, reason))
+}
+
+/// The best of sorted points that are not near a better one.
+fn separate(sorted: &[Point], distance: f64) -> Vec<Point> {
+    let mut kept: Vec<Point> = Vec::new();
+    for point in sorted {
+        let near = |other: &Point| point.at.iter().zip(&other.at).all(|(a, b)| (a - b).abs() < distance);
+        if kept.len() < STARTS && point.value.is_finite() && !kept.iter().any(near) {
+            kept.push(point.clone());
+        }
+    }
+    kept
+}
+
+fn polish(
+    problem: &Problem,
+    projection: &Projection,
+    starts: Vec<Point>,
+    radius: f64,
+    mut evaluations: u64,
+    reason: StopReason,
+) -> Fit {
+    let mut best: Option<Point> = None;
+    for start in starts {
+        let (found, more) = descend(start, radius, &|rows| projection.costs(rows));
+        evaluations += more;
+        if best.as_ref().is_none_or(|b| found.value < b.value) {
+            best = Some(found);
+        }
+    }
+    let shapes = best.map_or_else(|| vec![0.5; projection.dimension()], |point| point.at);
+    let (values, _) = projection.solve(&shapes);
+    // The cost as every other result has it, not through the normal equations.
+    let mut cost = [0.0];
+    problem.fitness(&values, &mut cost, &AtomicBool::new(false));
+    Fit { values, cost: cost[0], evaluations, reason }
+}

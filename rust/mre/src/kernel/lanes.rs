@@ -1,0 +1,81 @@
+//! Hysteretic variables of several candidates side by side, one SIMD lane each.
+
+use super::hysteretic::{Plan, rk4, stiffness};
+
+/// Candidates simulated side by side.
+pub(crate) const LANES: usize = 16;
+
+/// Shapes of the candidates.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Lanes {
+    rho: [f64; LANES],
+    sigma: [f64; LANES],
+    n: [f64; LANES],
+    stiffness: [f64; LANES],
+    stiffest: f64,
+    /// Lanes that cannot be simulated: their variable stays at rest.
+    pub(super) hopeless: [bool; LANES],
+}
+
+impl Lanes {
+    /// Up to [`LANES`] shapes `[rho, sigma, n]`; the last one fills the rest.
+    pub(super) fn new(plan: &Plan, shapes: impl Fn(usize) -> [f64; 3]) -> Self {
+        let shapes: [[f64; 3]; LANES] = std::array::from_fn(shapes);
+        let mut rho = shapes.map(|shape| shape[0]);
+        let mut stiffness = shapes.map(stiffness);
+        let hopeless = stiffness.map(|s| plan.too_coarse(s));
+        for l in 0..LANES {
+            if hopeless[l] {
+                (rho[l], stiffness[l]) = (0.0, 0.0);
+            }
+        }
+        let stiffest = stiffness.iter().copied().fold(0.0, f64::max);
+        let (sigma, n) = (shapes.map(|shape| shape[1]), shapes.map(|shape| shape[2]));
+        Self { rho, sigma, n, stiffness, stiffest, hopeless }
+    }
+
+    /// From one sample to the next, over `h` with a velocity that goes linearly from `v0` to `v1`.
+    #[inline(always)]
+    pub(super) fn advance<const FUSED: bool>(
+        &self,
+        w: &mut [f64; LANES],
+        (v0, v1): (f64, f64),
+        h: f64,
+        demand: f64,
+    ) {
+        if self.stiffest * demand <= 1.0 {
+            for l in 0..LANES {
+                w[l] = rk4::<FUSED>(w[l], v0, v1, h, [self.rho[l], self.sigma[l], self.n[l]]);
+            }
+        } else {
+            self.advance_in_substeps::<FUSED>(w, (v0, v1), h, demand);
+        }
+    }
+
+    /// Every lane takes the number of sub-steps it needs by itself; those that are done wait.
+    #[inline(always)]
+    fn advance_in_substeps<const FUSED: bool>(
+        &self,
+        w: &mut [f64; LANES],
+        (v0, v1): (f64, f64),
+        h: f64,
+        demand: f64,
+    ) {
+        let mut count = [1.0; LANES];
+        let mut most: f64 = 1.0;
+        for l in 0..LANES {
+            count[l] = (self.stiffness[l] * demand).ceil().max(1.0);
+            most = most.max(count[l]);
+        }
+        for s in 0..most as usize {
+            let done = s as f64;
+            for l in 0..LANES {
+                let dv = (v1 - v0) / count[l];
+                let start = v0 + dv * done;
+                let shape = [self.rho[l], self.sigma[l], self.n[l]];
+                let next = rk4::<FUSED>(w[l], start, start + dv, h / count[l], shape);
+                w[l] = if done < count[l] { next } else { w[l] };
+            }
+        }
+    }
+}
