@@ -23,8 +23,8 @@ SEED = 1
 
 
 def row(recordings: Sequence[mre_core.Recording], model: str) -> tuple[float, list[mre_core.Fit], str]:
-    """Identify by PSO; relative rms over all samples, the fits, and parameters that ended on a bound."""
-    found = mre_core.identify(list(recordings), model, optimizer="pso", seed=SEED)
+    """Identify; relative rms over all samples, the fits, and parameters that ended on a bound."""
+    found = mre_core.identify(list(recordings), model, seed=SEED)
     errors = sum(fit.rms**2 * fit.samples for fit in found.fits)
     spread = sum((fit.rms / fit.relative_rms) ** 2 * fit.samples for fit in found.fits)
     active = {p.name for run in found.runs for p in run.parameters if p.on_bound and not p.at_limit}
@@ -33,7 +33,7 @@ def row(recordings: Sequence[mre_core.Recording], model: str) -> tuple[float, li
 
 def study(title: str, recordings: Sequence[mre_core.Recording], models: Sequence[str]) -> None:
     """Print one table of a data set."""
-    print(f"\n{title}: rms error as a share of the force's rms; PSO, seed {SEED}\n")
+    print(f"\n{title}: rms error as a share of the force's rms, seed {SEED}\n")
     print("| recording | " + " | ".join(f"{m}, together | {m}, alone" for m in models) + " |")
     print("|---|" + "---:|" * (2 * len(models)))
     columns: list[list[str]] = []

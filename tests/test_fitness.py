@@ -293,10 +293,10 @@ def test_sinh_beyond_700_cannot_be_a_candidate(sign: float) -> None:
 
 
 def test_too_many_substeps_cannot_be_a_candidate() -> None:
-    """Constant 10 mm/s and 0.01 s: rho / 5 sub-steps an interval for n = 1, sigma = 0.5."""
+    """Constant 10 mm/s and 0.01 s: a fifth of rho, rounded up to a power of two, for n = 1, sigma = 0.5."""
     t = 0.01 * np.arange(20, dtype=float)
     problem = Problem(Recording(t, 10.0 * t, t, velocity=np.full(20, 10.0)), "bouc_wen")
-    rows = [[0.0, 0.0, 1.0, rho, 0.5, 1.0, 0.0] for rho in (4999.0, 5001.0)]
+    rows = [[0.0, 0.0, 1.0, rho, 0.5, 1.0, 0.0] for rho in (4096.0, 4097.0)]
     assert np.isfinite(problem.fitness(rows)).tolist() == [True, False]
 
 

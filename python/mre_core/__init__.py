@@ -6,6 +6,7 @@ Units everywhere: millimetre, newton, second, ampere, degree Celsius.
 from ._core import MreError, Problem, Recording, __version__, inertia_weight, models
 from .asktell import AskTell
 from .errors import ExtrapolationWarning, InputError, UnitAssumedWarning
+from .fits import exact, hybrid
 from .identify import Fit, Identification, identify
 from .load import from_dataframe, load
 from .model import Level, Model, simulate
@@ -29,7 +30,9 @@ __all__ = [
     "UnitAssumedWarning",
     "__version__",
     "afsa",
+    "exact",
     "from_dataframe",
+    "hybrid",
     "identify",
     "inertia_weight",
     "load",

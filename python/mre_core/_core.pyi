@@ -130,6 +130,22 @@ class Swarm:
         on_interrupt: str = "raise",
     ) -> str: ...
 
+def fit_exact(
+    problem: Problem, *, threads: int | None = None, on_interrupt: str = "raise"
+) -> tuple[NDArray[np.float64], float, int, str, dict[str, NDArray[Any]]]: ...
+def fit_hybrid(
+    problem: Problem,
+    settings: dict[str, Any],
+    seed: int,
+    *,
+    start: ArrayLike | None = None,
+    max_evaluations: int | None = None,
+    time_limit: float | None = None,
+    target: float | None = None,
+    threads: int | None = None,
+    callback: Callable[[int, int, float], Any] | None = None,
+    on_interrupt: str = "raise",
+) -> tuple[NDArray[np.float64], float, int, str, dict[str, NDArray[Any]]]: ...
 def models() -> list[str]: ...
 def parameters(model: str) -> list[tuple[str, str]]: ...
 def check(model: str, levels: Sequence[tuple[float | None, Sequence[float]]]) -> None: ...

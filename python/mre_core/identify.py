@@ -1,18 +1,20 @@
 """From recordings to an identified model."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
 
 from ._core import Problem, Recording, parameters
 from .errors import InputError
+from .fits import exact, hybrid
 from .model import Level, Model, simulate
 from .results import StopReason, SwarmResult
 from .swarms import afsa, draw_seed, mafsa, pso
 
-OPTIMIZERS: dict[str, Callable[..., SwarmResult]] = {"mafsa": mafsa, "afsa": afsa, "pso": pso}
+SWARMS: dict[str, Callable[..., SwarmResult]] = {"mafsa": mafsa, "afsa": afsa, "pso": pso}
+OPTIMIZERS = (*SWARMS, "exact", "hybrid")
 
 
 @dataclass(frozen=True)
@@ -68,7 +70,7 @@ def identify(
     recordings: Recording | Sequence[Recording],
     model: str | Model = "sinh",
     *,
-    optimizer: Literal["mafsa", "afsa", "pso"] = "mafsa",
+    optimizer: Literal["hybrid", "exact", "mafsa", "afsa", "pso"] = "hybrid",
     seed: int | None = None,
     bounds: Mapping[str, tuple[float, float]] | None = None,
     weights: Literal["samples", "force"] | None = None,
@@ -87,8 +89,9 @@ def identify(
         With force.
     model : str or Model
         ``"kelvin_voigt"``, ``"sinh"`` or ``"bouc_wen"``, or a model whose parameters are starting values.
-    optimizer : {"mafsa", "afsa", "pso"}
-        Which swarm.
+    optimizer : {"hybrid", "exact", "mafsa", "afsa", "pso"}
+        A small swarm with exact coefficients and descent, exact coefficients and a scan, or the swarms
+        over all parameters as in the paper; these are compared with `exact` (`gap` of the run).
     seed : int, optional
         Same seed, same result. Drawn and reported where not given.
     bounds : mapping of name to (lower, upper), optional
@@ -98,7 +101,7 @@ def identify(
     on_level : callable, optional
         Called with (number of the group, number of groups, current) before each run.
     **options
-        Keywords of `mafsa`, `afsa` or `pso`.
+        Keywords of the optimiser's function.
 
     Returns
     -------
@@ -123,7 +126,7 @@ def identify(
         if on_level is not None:
             on_level(i, len(groups), current)
         start = _start(model, problem, current) if isinstance(model, Model) else None
-        run = OPTIMIZERS[optimizer](problem, seed=seed, **({"x0": start} | options))
+        run = _optimise(optimizer, problem, seed, start, options)
         runs.append(run)
         symbols = [symbol for symbol, _ in parameters(name)]
         for level, values in problem.levels(run.x, current):
@@ -134,6 +137,24 @@ def identify(
     found = Model(name, tuple(levels), _tested(everything))
     fits = tuple(measure_fit(found, recording) for recording in everything)
     return Identification(found, tuple(runs), fits, optimizer, seed)
+
+
+def _optimise(
+    optimizer: str, problem: Problem, seed: int, start: list[float] | None, options: Mapping[str, Any]
+) -> SwarmResult:
+    """Run one optimiser; a swarm that ran to its end is compared with the exact optimum."""
+    shared = {key: options[key] for key in ("threads", "on_interrupt") if key in options}
+    if optimizer == "exact":
+        if surplus := sorted(key for key in set(options) - {*shared, "callback"} if options[key] is not None):
+            raise InputError(f"{surplus[0]} is given", wanted="no such setting for the optimizer 'exact'")
+        return exact(problem, **shared)
+    if optimizer == "hybrid":
+        return hybrid(problem, seed=seed, **({"x0": start} | dict(options)))
+    run = SWARMS[optimizer](problem, seed=seed, **({"x0": start} | dict(options)))
+    if run.reason in (StopReason.INTERRUPTED, StopReason.CALLBACK):
+        return run
+    best = exact(problem, **shared)
+    return replace(run, optimum=min(best.fitness, run.fitness))
 
 
 def group_by_current(recordings: Sequence[Recording]) -> list[tuple[float | None, list[Recording]]]:
@@ -216,6 +237,7 @@ def describe(found: Identification) -> dict[str, Any]:
                 "fitness": run.fitness,
                 "unit": run.unit,
                 "rms_N": run.rms,
+                "gap": run.gap,
                 "reason": str(run.reason),
                 "iterations": run.n_iterations,
                 "evaluations": run.n_evaluations,

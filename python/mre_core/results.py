@@ -46,7 +46,7 @@ class Parameter:
 
 @dataclass(frozen=True)
 class SwarmResult:
-    """Outcome of `afsa`, `mafsa` or `pso`, with SciPy's names `x`, `fun`, `nfev`, `nit` beside ours."""
+    """Outcome of an optimiser, with SciPy's names `x`, `fun`, `nfev`, `nit` beside ours."""
 
     algorithm: str
     parameters: tuple[Parameter, ...]
@@ -65,6 +65,15 @@ class SwarmResult:
     behaviours: Mapping[str, int]
     """How often each behaviour of the fish decided a move; zeros for particles."""
     settings: Mapping[str, Any] = field(repr=False)
+    optimum: float | None = None
+    """Best fitness known for the same problem, by `exact`; None where it was not looked for."""
+
+    @property
+    def gap(self) -> float | None:
+        """How far the fitness is above the best known one, as a share of it; None where that is not known."""
+        if self.optimum is None or self.optimum <= 0:
+            return None
+        return self.fitness / self.optimum - 1
 
     @property
     def x(self) -> NDArray[np.float64]:
@@ -105,6 +114,8 @@ class SwarmResult:
         rows = [f"{self.algorithm}: fitness {self.fitness:.6g} {self.unit}".rstrip()]
         for p in self.parameters:
             rows.append(f"  {p.name:<12} {p.value:>14.6g} {p.unit}  {p.note}".rstrip())
+        if self.gap is not None:
+            rows.append(f"  {100 * self.gap:.2g} % above the best known optimum")
         rows.append(
             f"  {self.n_iterations} iterations, {self.n_evaluations} evaluations"
             f" ({self.n_failures} failed), stopped by {self.reason}, seed {self.seed}"
@@ -124,27 +135,12 @@ def collect(
 ) -> SwarmResult:
     """Put together the result of a swarm that has run."""
     x, cost = swarm.best
-    names, lower, upper = box
-    units = problem.units if problem is not None else [""] * len(names)
-    free = [(-np.inf, np.inf)] * len(names)
-    sides = problem.on_bound(x) if problem is not None else _on_bound(x, lower, upper)
-    limits = problem.limits if problem is not None else free
-    parameters = []
-    for name, value, unit, low, high, side, limit in zip(
-        names, x.tolist(), units, lower.tolist(), upper.tolist(), sides, limits, strict=True
-    ):
-        on_bound = {-1: "lower", 0: None, 1: "upper"}[side]
-        at_limit = (side < 0 and low == limit[0]) or (side > 0 and high == limit[1])
-        parameters.append(Parameter(name, value, unit, low, high, on_bound, at_limit))
-    columns = swarm.history
-    history = np.empty(len(columns["best"]), dtype=[(name, c.dtype) for name, c in columns.items()])
-    for column, content in columns.items():
-        history[column] = content
-    history.setflags(write=False)
+    parameters = parameters_at(x, problem, box)
+    history = to_records(swarm.history)
     evaluations, failures = swarm.evaluations
     return SwarmResult(
         algorithm=algorithm,
-        parameters=tuple(parameters),
+        parameters=parameters,
         fitness=cost,
         unit="N^2" if problem is not None else "",
         reason=reason,
@@ -156,6 +152,35 @@ def collect(
         behaviours=swarm.behaviours,
         settings=dict(settings),
     )
+
+
+def to_records(columns: Mapping[str, NDArray[Any]]) -> NDArray[Any]:
+    """Join the columns of a history."""
+    history = np.empty(len(columns["best"]), dtype=[(name, c.dtype) for name, c in columns.items()])
+    for column, content in columns.items():
+        history[column] = content
+    history.setflags(write=False)
+    return history
+
+
+def parameters_at(
+    x: NDArray[np.float64],
+    problem: Problem | None,
+    box: tuple[list[str], NDArray[np.float64], NDArray[np.float64]],
+) -> tuple[Parameter, ...]:
+    """Parameters with their units, bounds, and which of the bounds were active."""
+    names, lower, upper = box
+    units = problem.units if problem is not None else [""] * len(names)
+    sides = problem.on_bound(x) if problem is not None else _on_bound(x, lower, upper)
+    limits = problem.limits if problem is not None else [(-np.inf, np.inf)] * len(names)
+    parameters = []
+    for name, value, unit, low, high, side, limit in zip(
+        names, x.tolist(), units, lower.tolist(), upper.tolist(), sides, limits, strict=True
+    ):
+        on_bound = {-1: "lower", 0: None, 1: "upper"}[side]
+        at_limit = (side < 0 and low == limit[0]) or (side > 0 and high == limit[1])
+        parameters.append(Parameter(name, value, unit, low, high, on_bound, at_limit))
+    return tuple(parameters)
 
 
 def _on_bound(x: NDArray[np.float64], lower: NDArray[np.float64], upper: NDArray[np.float64]) -> list[int]:

@@ -211,6 +211,13 @@ def draw_seed(seed: int | None) -> int:
     return int(seed)
 
 
+def check_options(function: str, run: Mapping[str, Any]) -> dict[str, Any]:
+    """Options of a run that are given, refused where no swarm knows them."""
+    if unknown := sorted(set(run) - set(RunOptions.__annotations__)):
+        raise TypeError(f"{function}() got an unexpected keyword argument '{unknown[0]}'")
+    return {name: value for name, value in run.items() if value is not None}
+
+
 def read_box(bounds: Bounds | None) -> Box:
     """Names, lower and upper bounds of a box for a function."""
     if bounds is None:
@@ -225,15 +232,20 @@ def read_box(bounds: Bounds | None) -> Box:
     return names, box[:, 0].copy(), box[:, 1].copy()
 
 
-def make(algorithm: str, bounds: Bounds, seed: int | None, settings: Mapping[str, Any]) -> tuple[Swarm, int]:
-    """Make a swarm for ask and tell, and the seed it got; settings as keywords of the functions above."""
+def defaults(algorithm: str) -> dict[str, Any]:
+    """Read the default settings of a swarm from the signature of its function."""
     functions: dict[str, Callable[..., SwarmResult]] = {"mafsa": mafsa, "afsa": afsa, "pso": pso}
     if algorithm not in functions:
         raise InputError(f"algorithm is {algorithm!r}", wanted=f"one of {', '.join(functions)}")
     keywords = inspect.signature(functions[algorithm]).parameters.values()
-    known = {
+    return {
         k.name: k.default for k in keywords if k.kind is inspect.Parameter.KEYWORD_ONLY and k.name != "seed"
     }
+
+
+def make(algorithm: str, bounds: Bounds, seed: int | None, settings: Mapping[str, Any]) -> tuple[Swarm, int]:
+    """Make a swarm for ask and tell, and the seed it got; settings as keywords of the functions above."""
+    known = defaults(algorithm)
     given = dict(settings)
     start = given.pop("x0", None)
     if unknown := sorted(set(given) - set(known)):
@@ -262,11 +274,8 @@ def _minimise(
     settings: Mapping[str, Any],
     run: RunOptions,
 ) -> SwarmResult:
-    unknown = sorted(set(run) - set(RunOptions.__annotations__))
-    if unknown:
-        raise TypeError(f"{algorithm}() got an unexpected keyword argument '{unknown[0]}'")
+    options = check_options(algorithm, run)
     seed = draw_seed(seed)
-    options: dict[str, Any] = {name: value for name, value in run.items() if value is not None}
     start = options.pop("x0", None)
     if isinstance(problem, Problem):
         if bounds is not None:

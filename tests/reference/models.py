@@ -87,7 +87,9 @@ def sinh(p: Sequence[float], motion: Motion) -> Array:
 
 def substeps(rho: float, sigma: float, n: float, motion: Motion) -> list[int]:
     """Equal sub-steps of every interval between two samples."""
-    stiffness = 2.0 ** math.ceil(math.log2(rho * n * max(1.0, 2.0 * sigma - 1.0)))
+    rate = rho * n * max(1.0, 2.0 * sigma - 1.0)
+    # Rounded up to a power of two; what is zero or beyond all numbers stays so.
+    stiffness = 2.0 ** math.ceil(math.log2(rate)) if 0.0 < rate < 1e300 else rate
     counts = []
     for i in range(len(motion) - 1):
         fastest = max(abs(motion.velocity[i]), abs(motion.velocity[i + 1]))

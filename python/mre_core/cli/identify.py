@@ -14,7 +14,11 @@ from .arguments import WHOLE, common_options, load_all, read_bounds, read_interv
     "--model", required=True, metavar="MODEL", help="kelvin_voigt, sinh, bouc_wen, or a model.json."
 )
 @click.option(
-    "--optimizer", default="mafsa", show_default=True, metavar="mafsa|afsa|pso", help="Which swarm."
+    "--optimizer",
+    default="hybrid",
+    show_default=True,
+    metavar="hybrid|exact|mafsa|afsa|pso",
+    help="How to search.",
 )
 @click.option("--out", type=click.Path(path_type=Path), metavar="DIR", help="Folder for the results.")
 @click.option("--seed", type=WHOLE, help="Same seed, same result.")
@@ -22,8 +26,8 @@ from .arguments import WHOLE, common_options, load_all, read_bounds, read_interv
 @click.option("--weights", metavar="samples|force", help="Count samples, or recordings by their force.")
 @click.option("--cut", metavar="START:STOP", help="Keep this part of every recording, in s.")
 @click.option("--exclude", metavar="PARTS", help="start_transient, stop_transient or both, with a comma.")
-@click.option("--fish", type=WHOLE, default=50, show_default=True, help="Fish or particles.")
-@click.option("--iterations", type=WHOLE, default=300, show_default=True, help="Iterations.")
+@click.option("--fish", type=WHOLE, help="Fish or particles of a swarm; 50 by default.")
+@click.option("--iterations", type=WHOLE, help="Iterations of a swarm; 300 by default.")
 @click.option("--max-evaluations", type=WHOLE, help="Budget of evaluations for each current.")
 @click.option("--time-limit", type=float, metavar="S", help="Budget of seconds for each current.")
 @click.option("--threads", type=WHOLE, help="Threads; all cores by default.")
@@ -38,8 +42,8 @@ def identify(
     cut: str | None,
     exclude: str | None,
     bounds: tuple[str, ...],
-    fish: int,
-    iterations: int,
+    fish: int | None,
+    iterations: int | None,
     no_figures: bool,
     quiet: bool,
     mapping: tuple[str, ...],
@@ -61,6 +65,7 @@ def identify(
     """  # noqa: D301  # \b keeps the lines
     from contextlib import nullcontext
 
+    from ..identify import SWARMS
     from ..identify import identify as run
     from ..model import Model
     from ..output import Stage, staged
@@ -74,9 +79,13 @@ def identify(
         parts = [part.strip() for part in exclude.split(",")]
         loaded = [recording.exclude(*parts) for recording in loaded]
     base = Model.load(model) if model.endswith(".json") else model
-    options["n_particles" if optimizer == "pso" else "n_fish"] = fish
+    sizes = {"n_particles" if optimizer == "pso" else "n_fish": fish, "max_iterations": iterations}
+    options |= {name: size for name, size in sizes.items() if size is not None}
     place = staged(out) if out is not None else nullcontext()
-    with place as stage, progress(iterations, quiet=quiet) as (on_level, on_progress):
+    with (
+        place as stage,
+        progress(iterations or (300 if optimizer in SWARMS else 15), quiet=quiet) as (on_level, on_progress),
+    ):
         found = run(
             loaded,
             base,
@@ -85,7 +94,6 @@ def identify(
             on_level=on_level,
             callback=on_progress,
             on_interrupt="return",
-            max_iterations=iterations,
             **options,
         )
         if isinstance(stage, Stage):

@@ -62,9 +62,11 @@ def print_identification(found: "Identification") -> None:
             table.add_column(column, justify="right" if column == "value" else "left")
         for p in run.parameters:
             table.add_row(p.name, f"{p.value:.6g}", p.unit, f"{p.lower:.4g} to {p.upper:.4g}", p.note)
+        gap = "" if run.gap is None else f", {100 * run.gap:.2g} % above the best known optimum"
         table.caption = (
-            f"fitness {run.fitness:.6g} {run.unit} (rms {run.rms:.4g} N), {run.n_evaluations} evaluations"
-            f" ({run.n_failures} failed), stopped by {run.reason}, seed {run.seed}"
+            f"fitness {run.fitness:.6g} {run.unit} (rms {run.rms:.4g} N){gap},"
+            f" {run.n_evaluations} evaluations ({run.n_failures} failed),"
+            f" stopped by {run.reason}, seed {run.seed}"
         )
         out.print(table)
     _print_classical(found, out)

@@ -4,7 +4,9 @@ use std::cell::RefCell;
 use std::sync::{Mutex, MutexGuard};
 
 use mre::parameter::{Bounds, Scale};
-use mre::swarm::{FishSwarm, Monitor, ParticleSwarm, Progress, StopReason, Stream, Swarm as Core, run};
+use mre::swarm::{
+    FishSwarm, History, Monitor, ParticleSwarm, Progress, StopReason, Stream, Swarm as Core, run,
+};
 use numpy::{PyArray1, PyArray2};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
@@ -21,6 +23,17 @@ use crate::settings::{budget, fish, pso};
 pub(crate) struct Swarm {
     bounds: Bounds,
     state: Mutex<Box<dyn Core>>,
+}
+
+/// Columns of a history.
+pub(crate) fn history_to_python<'py>(py: Python<'py>, history: &History) -> PyResult<Bound<'py, PyDict>> {
+    let dict = PyDict::new(py);
+    dict.set_item("best", PyArray1::from_slice(py, &history.best))?;
+    dict.set_item("mean", PyArray1::from_slice(py, &history.mean))?;
+    dict.set_item("evaluations", PyArray1::from_slice(py, &history.evaluations))?;
+    dict.set_item("range", PyArray1::from_slice(py, &history.range))?;
+    dict.set_item("step", PyArray1::from_slice(py, &history.step))?;
+    Ok(dict)
 }
 
 /// The name of a reason in Python.
@@ -176,15 +189,7 @@ impl Swarm {
 
     #[getter]
     fn history<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let state = self.lock()?;
-        let history = state.history();
-        let dict = PyDict::new(py);
-        dict.set_item("best", PyArray1::from_slice(py, &history.best))?;
-        dict.set_item("mean", PyArray1::from_slice(py, &history.mean))?;
-        dict.set_item("evaluations", PyArray1::from_slice(py, &history.evaluations))?;
-        dict.set_item("range", PyArray1::from_slice(py, &history.range))?;
-        dict.set_item("step", PyArray1::from_slice(py, &history.step))?;
-        Ok(dict)
+        history_to_python(py, self.lock()?.history())
     }
 
     #[getter]

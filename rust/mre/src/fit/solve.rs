@@ -6,14 +6,12 @@ use super::descent::{Point, descend};
 use super::projection::Projection;
 use crate::error::Result;
 use crate::fitness::Problem;
-use crate::swarm::{
-    Budget, Crowd, FishSettings, FishSwarm, Monitor, Neighbourhood, Schedule, Search, StopReason, Swarm, run,
-};
+use crate::swarm::{Budget, FishSettings, FishSwarm, History, Monitor, StopReason, Swarm, run};
 
 /// Points of the first scan along each shape, by the number of shapes.
-const SCAN: [usize; 4] = [0, 96, 16, 8];
-/// Local minima of the scan from which is descended.
-const STARTS: usize = 8;
+const SCAN: [usize; 4] = [0, 64, 12, 6];
+/// Places of the scan from which is descended.
+const STARTS: usize = 6;
 
 /// Outcome of a fit.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,6 +24,8 @@ pub struct Fit {
     pub evaluations: u64,
     /// Why the fit stopped.
     pub reason: StopReason,
+    /// History of the swarm, if there was one.
+    pub history: History,
 }
 
 /// Scan the shapes, descend from the best places, solve the coefficients exactly.
@@ -64,9 +64,10 @@ pub fn exact(problem: &Problem, cancel: &AtomicBool) -> Fit {
 /// MAFSA over the shapes with exact coefficients, then descent.
 ///
 /// # Errors
-/// Never for the settings used here.
+/// A setting outside its range.
 pub fn hybrid(
     problem: &Problem,
+    settings: FishSettings,
     seed: u64,
     start: Option<&[f64]>,
     budget: &Budget,
@@ -76,20 +77,9 @@ pub fn hybrid(
     let projection = Projection::new(problem, cancel);
     let d = projection.dimension();
     if d == 0 {
+        settings.check()?;
         return Ok(exact(problem, cancel));
     }
-    let settings = FishSettings {
-        fish: 12,
-        iterations: 15,
-        try_number: 12,
-        delta: 0.6,
-        visual: 0.5,
-        step: 0.25,
-        schedule: Schedule::FromStart { visual_min: 0.002, step_min: 0.0003, p: 5 },
-        neighbourhood: Neighbourhood::Swarm,
-        crowd: Crowd::Literal,
-        search: Search::Best,
-    };
     let start = start.map(|parameters| projection.unit_shapes(parameters));
     let mut swarm = FishSwarm::new(settings, d, seed, start.as_deref())?;
     let mut seen: Vec<Point> = Vec::new();
@@ -102,7 +92,8 @@ pub fn hybrid(
     let reason = run(&mut swarm, &mut evaluate, d, budget, monitor);
     seen.sort_by(|a, b| a.value.total_cmp(&b.value));
     let starts = separate(&seen, 0.1);
-    Ok(polish(problem, &projection, starts, 0.02, swarm.bulletin().evaluations, reason))
+    let fit = polish(problem, &projection, starts, 0.02, swarm.bulletin().evaluations, reason);
+    Ok(Fit { history: swarm.history().clone(), ..fit })
 }
 
 /// The best of sorted points that are not near a better one.
@@ -138,5 +129,5 @@ fn polish(
     // The cost as every other result has it, not through the normal equations.
     let mut cost = [0.0];
     problem.fitness(&values, &mut cost, &AtomicBool::new(false));
-    Fit { values, cost: cost[0], evaluations, reason }
+    Fit { values, cost: cost[0], evaluations, reason, history: History::default() }
 }
