@@ -1,0 +1,135 @@
+"""Exact and hybrid fits: at the optimum, inside the box, the same for every thread count."""
+
+import mre_core
+import numpy as np
+import pytest
+from mre_core import Problem, Recording
+from reference.exact import sinh_optimum
+from rig import BOUC_WEN, KELVIN_VOIGT, SINH, force_of, made_of, motion, record
+from scipy.optimize import lsq_linear  # type: ignore[import-untyped]
+
+
+@pytest.fixture(scope="module")
+def sinh_recording() -> Recording:
+    return record(made_of("sinh", SINH), motion(), noise=0.5, seed=3)
+
+
+@pytest.fixture(scope="module")
+def bouc_wen_problem() -> Problem:
+    recording = record(made_of("bouc_wen", BOUC_WEN), motion(cycles=2.0), noise=0.3, seed=4)
+    return Problem(recording, "bouc_wen")
+
+
+def test_sinh_meets_an_optimum_found_without_our_code(sinh_recording: Recording) -> None:
+    problem = Problem(sinh_recording, "sinh")
+    found = mre_core.exact(problem)
+    # SciPy's refinement of beta stops at 1e-9, where the fitness is flat to far less than 1e-9 of itself.
+    assert found.fun == pytest.approx(sinh_optimum(sinh_recording, problem), rel=1e-9)
+    assert found.fun == problem.fitness(found.x)
+    assert found.success
+
+
+@pytest.mark.parametrize(
+    "bounds",
+    [
+        {"c0": (0.0, 0.9)},
+        {"k0": (16.0, 30.0)},
+        {"alpha": (0.0, 5.0)},
+        {"beta": (0.5, 0.7)},
+        {"F0": (1.0, 2.0)},
+        {"c0": (2.0, 3.0), "k0": (0.0, 1.0), "beta": (0.05, 0.2)},
+    ],
+)
+def test_active_bounds_are_honoured(
+    sinh_recording: Recording, bounds: dict[str, tuple[float, float]]
+) -> None:
+    problem = Problem(sinh_recording, "sinh", bounds)
+    found = mre_core.exact(problem)
+    assert found.fun == pytest.approx(sinh_optimum(sinh_recording, problem), rel=1e-9)
+    assert np.all((problem.lower <= found.x) & (found.x <= problem.upper))
+    assert any(p.on_bound for p in found.parameters if p.name in bounds)
+
+
+def test_kelvin_voigt_is_linear_least_squares() -> None:
+    recording = record(made_of("kelvin_voigt", KELVIN_VOIGT), motion(), noise=0.5, seed=5)
+    problem = Problem(recording, "kelvin_voigt")
+    columns = np.column_stack([recording.velocity, recording.displacement, np.ones(len(recording))])
+    best = lsq_linear(columns, force_of(recording), (problem.lower, problem.upper), tol=1e-14)
+    found = mre_core.exact(problem)
+    assert found.fun == pytest.approx(2 * best.cost / len(recording), rel=1e-12)
+    np.testing.assert_allclose(found.x, best.x, rtol=1e-9, atol=1e-9)
+
+
+def test_hybrid_reaches_the_optimum_with_every_seed(sinh_recording: Recording) -> None:
+    problem = Problem(sinh_recording, "sinh")
+    best = mre_core.exact(problem).fun
+    worst = max(mre_core.hybrid(problem, seed=seed).fun for seed in range(100))
+    assert worst <= best * (1 + 1e-9)
+
+
+def test_bouc_wen_by_both_ways_is_the_same_point(bouc_wen_problem: Problem) -> None:
+    best = mre_core.exact(bouc_wen_problem)
+    runs = [mre_core.hybrid(bouc_wen_problem, seed=seed) for seed in range(10)]
+    lowest = min(best.fun, *(run.fun for run in runs))
+    for run in (best, *runs):
+        assert run.fun <= lowest * (1 + 1e-9)
+        np.testing.assert_allclose(run.x, best.x, rtol=1e-3)
+
+
+def test_no_point_near_the_bouc_wen_optimum_is_better(bouc_wen_problem: Problem) -> None:
+    best = mre_core.exact(bouc_wen_problem)
+    rng = np.random.default_rng(6)
+    for size in (1e-1, 1e-3, 1e-5):
+        near = best.x * (1 + size * rng.normal(size=(200, len(best.x))))
+        near = np.clip(near, bouc_wen_problem.lower, bouc_wen_problem.upper)
+        # Sums of squares through the normal equations: right to about 1e-12 of the squared force.
+        assert bouc_wen_problem.fitness(near).min() >= best.fun * (1 - 1e-10)
+
+
+def test_swarms_show_their_gap(sinh_recording: Recording) -> None:
+    found = mre_core.identify(sinh_recording, "sinh", optimizer="pso", seed=1, max_iterations=30)
+    best = mre_core.exact(Problem(sinh_recording, "sinh")).fun
+    assert found.result.optimum == best
+    assert found.result.gap == found.result.fun / best - 1
+    assert found.result.gap > 0
+    assert "above the best known optimum" in str(found)
+
+
+def test_hybrid_is_the_default_and_has_a_history(sinh_recording: Recording) -> None:
+    found = mre_core.identify(sinh_recording, "sinh", seed=1)
+    assert (found.optimizer, found.result.algorithm) == ("hybrid", "hybrid")
+    assert len(found.result.history) == found.result.nit + 1 == 16
+    assert found.result.fun <= found.result.history["best"][-1]
+
+
+@pytest.mark.parametrize("threads", [2, 3])
+def test_same_bits_for_any_number_of_threads(bouc_wen_problem: Problem, threads: int) -> None:
+    one, many = (mre_core.exact(bouc_wen_problem, threads=n) for n in (1, threads))
+    assert one.x.tobytes() == many.x.tobytes()
+    assert (one.fun, one.nfev) == (many.fun, many.nfev)
+    one, many = (mre_core.hybrid(bouc_wen_problem, seed=9, threads=n) for n in (1, threads))
+    assert one.x.tobytes() == many.x.tobytes()
+    assert (one.fun, one.nfev) == (many.fun, many.nfev)
+
+
+def test_law_over_a_changing_current() -> None:
+    moved = motion(8.0, cycles=4.0)
+    current = np.linspace(0.0, 2.0, len(moved))
+    low, high = SINH | {"c0": 0.5}, SINH | {"k0": 20.0}
+    ends = [mre_core.simulate(made_of("sinh", p), moved) for p in (low, high)]
+    force = ends[0] * (1 - current / 2) + ends[1] * current / 2
+    recording = Recording(moved.time, moved.displacement, force, velocity=moved.velocity, current=current)
+    found = mre_core.identify(recording, "sinh", seed=1)
+    # Made without noise: what is left is the rounding of the normal equations.
+    assert found.result.rms < 1e-5 * np.abs(force).max()
+    assert [level.current for level in found.model.levels] == [0.0, 2.0]
+    assert found.model.levels[1].parameters["k0"] == pytest.approx(20.0, rel=1e-3)
+
+
+def test_wrong_settings_are_named(sinh_recording: Recording) -> None:
+    with pytest.raises(mre_core.MreError, match="n_fish is 0"):
+        mre_core.hybrid(Problem(sinh_recording), seed=1, n_fish=0)
+    with pytest.raises(mre_core.MreError, match="max_iterations is given"):
+        mre_core.identify(sinh_recording, optimizer="exact", max_iterations=3)
+    with pytest.raises(mre_core.MreError, match="max_evaluations is 0"):
+        mre_core.hybrid(Problem(sinh_recording), seed=1, max_evaluations=0)
