@@ -12,7 +12,7 @@ use pyo3::types::PyDict;
 use crate::array;
 use crate::error::{setting, to_python};
 use crate::recording::Recording;
-use crate::run::in_pool;
+use crate::run::{Link, in_pool};
 
 /// Fitness of a model's parameters on recordings: eq. 5 of Yu, Li and Li (ISARC 2014); immutable.
 ///
@@ -61,6 +61,7 @@ impl Problem {
     #[new]
     #[pyo3(signature = (recordings, model="sinh", bounds=None, *, weights=None))]
     fn new(
+        py: Python<'_>,
         recordings: &Bound<'_, PyAny>,
         model: &str,
         bounds: Option<HashMap<String, (f64, f64)>>,
@@ -76,7 +77,9 @@ impl Problem {
         bounds.sort_by(|a, b| a.0.cmp(&b.0)); // the same error whatever the order of the hash
         let weights = to_weights(weights)?;
         let cores = recordings.iter().map(|r| Arc::clone(&r.inner)).collect();
-        let inner = Core::new(cores, model, &bounds, &weights).map_err(to_python)?;
+        // A pool of its own: the global one does not survive a fork.
+        let job = |_: &Link| Core::new(cores, model, &bounds, &weights);
+        let inner = in_pool(py, None, None, true, job)?.0.map_err(to_python)?;
         Ok(Self { inner: Arc::new(inner), recordings })
     }
 

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 use crate::error::{Error, Result};
 use crate::extent::Extent;
-use crate::kernel::{BoucWenRk4, LANES, SinhDirect};
+use crate::kernel::{BoucWenRk4, LANES, Sinh, SinhCompressed};
 use crate::law::Law;
 use crate::model::Model;
 use crate::parameter::{Bounds, Parameter};
@@ -40,7 +40,7 @@ pub struct Problem {
 
 #[derive(Debug)]
 enum Kernel {
-    Sinh(Vec<SinhDirect>),
+    Sinh(Box<Sinh>),
     BoucWen(Vec<BoucWenRk4>),
     /// Any model, term by term.
     Terms,
@@ -90,7 +90,10 @@ impl Problem {
         let bounds = Bounds::new(&names, pick(|p| p.lower), pick(|p| p.upper), scale)?;
         let weights = scale_weights(weights, &recordings)?;
         let kernel = match (model.name(), &law) {
-            ("sinh", Law::Shared) => Kernel::Sinh(recordings.iter().map(|r| SinhDirect::new(r)).collect()),
+            ("sinh", Law::Shared) => {
+                let largest_beta = bounds.lower()[3].abs().max(bounds.upper()[3].abs());
+                Kernel::Sinh(Box::new(Sinh::new(&recordings, &weights, largest_beta)))
+            }
             ("bouc_wen", Law::Shared) => {
                 Kernel::BoucWen(recordings.iter().cloned().map(BoucWenRk4::new).collect())
             }
@@ -129,6 +132,11 @@ impl Problem {
         &self.bounds
     }
 
+    /// The samples as a triangular factor, where the model and the box allow one.
+    pub(crate) fn compressed(&self) -> Option<&SinhCompressed> {
+        if let Kernel::Sinh(kernel) = &self.kernel { kernel.compressed() } else { None }
+    }
+
     /// Fitness in N^2 of many candidates, one row each, in parallel on the current thread pool.
     ///
     /// A candidate that cannot be simulated costs infinity. After `cancel` is set, NaN
@@ -137,23 +145,12 @@ impl Problem {
         let d = self.parameters.len();
         match &self.kernel {
             Kernel::BoucWen(kernels) => self.by_blocks(kernels, rows, out, cancel),
-            Kernel::Sinh(kernels) => self.one_by_one(rows, out, d, cancel, |_, row| {
-                kernels.iter().zip(&self.weights).map(|(k, w)| w * k.sum_of_squares(row)).sum()
-            }),
-            Kernel::Terms => {
-                self.one_by_one(rows, out, d, cancel, |scratch, row| self.term_by_term(scratch, row));
-            }
+            Kernel::Sinh(kernel) => kernel.sums_of_squares(rows, out, cancel),
+            Kernel::Terms => self.one_by_one(rows, out, d, cancel),
         }
     }
 
-    fn one_by_one(
-        &self,
-        rows: &[f64],
-        out: &mut [f64],
-        d: usize,
-        cancel: &AtomicBool,
-        cost: impl Fn(&mut Scratch, &[f64]) -> f64 + Sync,
-    ) {
+    fn one_by_one(&self, rows: &[f64], out: &mut [f64], d: usize, cancel: &AtomicBool) {
         let samples: usize = self.recordings.iter().map(|r| r.len()).sum();
         let grain = (100_000 / samples).max(1);
         rows.par_chunks(d).zip(out.par_iter_mut()).with_min_len(grain).for_each_init(
@@ -162,7 +159,7 @@ impl Problem {
                 *out = if cancel.load(Ordering::Relaxed) {
                     f64::NAN
                 } else {
-                    finite_or_infinite(cost(scratch, row))
+                    finite_or_infinite(self.term_by_term(scratch, row))
                 };
             },
         );
@@ -227,7 +224,8 @@ impl Scratch {
     }
 }
 
-fn finite_or_infinite(cost: f64) -> f64 {
+/// A candidate that cannot be simulated costs infinity.
+pub(crate) fn finite_or_infinite(cost: f64) -> f64 {
     if cost.is_nan() { f64::INFINITY } else { cost }
 }
 

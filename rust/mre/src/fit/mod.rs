@@ -1,6 +1,7 @@
 //! Exact fits: linear coefficients by projection, shapes by search and polish.
 
 mod bounded;
+pub mod certified;
 mod descent;
 mod projection;
 mod solve;

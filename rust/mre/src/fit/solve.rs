@@ -2,6 +2,7 @@
 
 use std::sync::atomic::AtomicBool;
 
+use super::certified;
 use super::descent::{Point, descend};
 use super::projection::Projection;
 use crate::error::Result;
@@ -28,10 +29,21 @@ pub struct Fit {
     pub history: History,
 }
 
-/// Scan the shapes, descend from the best places, solve the coefficients exactly.
+/// The best parameters in the box: over the whole interval of beta where the model has no other shape,
+/// else by a scan of the shapes and descent from the best places, coefficients solved exactly.
 ///
 /// After `cancel` is set it ends soon, with the best so far.
 pub fn exact(problem: &Problem, cancel: &AtomicBool) -> Fit {
+    if let Ok(found) = certified::exact(problem) {
+        let certified::Exact { values, cost, evaluations } = found;
+        return Fit {
+            values,
+            cost,
+            evaluations,
+            reason: StopReason::Iterations,
+            history: History::default(),
+        };
+    }
     let projection = Projection::new(problem, cancel);
     let d = projection.dimension();
     let mut scan = Vec::new();

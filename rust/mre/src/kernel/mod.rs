@@ -6,14 +6,19 @@
 // Lane loops are written as index loops over arrays, inlined into one function per instruction set.
 #![allow(clippy::inline_always, clippy::needless_range_loop)]
 
+pub(crate) mod bessel;
 pub(crate) mod bouc_wen_gram;
 mod bouc_wen_rk4;
 mod dispatch;
 pub(crate) mod elementary;
 pub(crate) mod hysteretic;
 mod lanes;
+mod sinh;
+pub(crate) mod sinh_compressed;
 mod sinh_direct;
+pub(crate) mod triangle;
 
 pub(crate) use bouc_wen_rk4::BoucWenRk4;
 pub(crate) use lanes::LANES;
-pub(crate) use sinh_direct::SinhDirect;
+pub(crate) use sinh::Sinh;
+pub(crate) use sinh_compressed::SinhCompressed;

@@ -1,0 +1,143 @@
+//! Proof that no parameters in the box are better than those found.
+//!
+//! For any unit vector y and any candidate u, `||F - D(b) u|| >= y (F - D(b) u)`, which is linear in the
+//! coefficients. Over an interval of b and the box it is at least
+//! `y F - sum_j max(l_j (y D_j), h_j (y D_j))` over c0, F0, k0, and for alpha the largest of
+//! `alpha q(b)`, `q(b) = y w(b)`. With y along the best residual at the middle c of the interval of
+//! half width h the bound meets the cost there, and
+//! `|q(b) - q(c)| <= |q'(c)| h + |q''(c)| h^2 / 2 + e^h ||w'''(c)|| h^3 / 6`,
+//! because `|t^3 cosh(b t)| <= e^|b - c| |t^3 cosh(c t)|` for |t| <= 1 in every sample.
+//!
+//! A box of alpha far wider than its estimate would make that loose. But alpha alone explains what lies
+//! outside the span of v, 1, x: with the tails w, f of the columns there, and `||w(b) - w(c)|| <= rho`,
+//! any candidate below a known cost C has `||f - alpha w(c)|| <= sqrt C + |alpha| rho`, which leaves an
+//! interval of alpha. Candidates outside it do not go below C.
+//!
+//! Intervals of b are halved until the bound reaches the cost that was found. True to rounding (about
+//! 1e-12 of the cost).
+
+use super::sinh_curve::{Columns, Curve, dot};
+use super::{Exact, Kind, sinh_exact};
+use crate::error::Result;
+use crate::fitness::Problem;
+
+/// Most intervals: some tenths of a second.
+const MOST: u64 = 500_000;
+/// Share of the squared force below which a cost is rounding.
+const NOTHING: f64 = 1e-26;
+
+/// How much better than the optimum that was found any other parameters can be at most.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Certificate {
+    /// Fitness that nothing in the box can go below, N^2.
+    pub lower: f64,
+    /// `1 - lower / cost`.
+    pub gap: f64,
+    /// True where the gap is within what was asked for.
+    pub certified: bool,
+    /// Intervals of beta that were bounded.
+    pub evaluations: u64,
+}
+
+/// Bound the fitness from below over the whole box, until the gap to `exact` is within `tolerance`
+/// (such as 1e-9) or the effort is spent.
+///
+/// The linear model needs no proof: its cost is convex.
+///
+/// # Errors
+/// As [`super::exact`].
+pub fn certificate(problem: &Problem, exact: &Exact, tolerance: f64) -> Result<Certificate> {
+    if matches!(Kind::of(problem)?, Kind::Linear) {
+        return Ok(Certificate { lower: exact.cost, gap: 0.0, certified: true, evaluations: 0 });
+    }
+    let curve = Curve::new(problem);
+    let square = curve.columns(0.0, 1).target.iter().map(|f| f * f).sum::<f64>();
+    if exact.cost <= NOTHING * square {
+        return Ok(Certificate { lower: 0.0, gap: 0.0, certified: true, evaluations: 1 });
+    }
+    let mut cells: Vec<Cell> = sinh_exact::grid(problem, &curve)?
+        .windows(2)
+        .map(|ends| Cell { low: ends[0], high: ends[1], bound: 0.0 })
+        .collect();
+    // Half of the tolerance, so that roundings do not keep an interval open.
+    let enough = exact.cost * (1.0 - 0.5 * tolerance);
+    let (mut lower, mut evaluations) = (exact.cost, 0);
+    while let Some(cell) = cells.pop() {
+        if evaluations >= MOST {
+            lower = lower.min(cell.bound);
+            continue;
+        }
+        evaluations += 1;
+        let middle = 0.5 * (cell.low + cell.high);
+        let bound = bound(&curve, &cell, exact.cost).max(cell.bound);
+        if bound >= enough || middle <= cell.low || middle >= cell.high {
+            lower = lower.min(bound);
+        } else {
+            cells.push(Cell { low: cell.low, high: middle, bound });
+            cells.push(Cell { low: middle, high: cell.high, bound });
+        }
+    }
+    let gap = if exact.cost > 0.0 { (1.0 - lower / exact.cost).max(0.0) } else { 0.0 };
+    Ok(Certificate { lower, gap, certified: gap <= tolerance, evaluations })
+}
+
+/// An interval of b.
+#[derive(Debug, Clone, Copy)]
+struct Cell {
+    low: f64,
+    high: f64,
+    /// Known lower bound of the cost.
+    bound: f64,
+}
+
+/// Lower bound of the cost over an interval of b, or `known` if that is less.
+fn bound(curve: &Curve<'_>, cell: &Cell, known: f64) -> f64 {
+    let (c, h) = (0.5 * (cell.low + cell.high), 0.5 * (cell.high - cell.low));
+    let on = curve.columns(c, 4);
+    let point = curve.solve(c, &on);
+    let norm = point.cost.sqrt();
+    if norm == 0.0 {
+        return 0.0;
+    }
+    let third = h.exp() * length(&on.w[3]);
+    // How far a function of b goes from its value in the middle.
+    let reach = |first: f64, second: f64| h * (first + h * (0.5 * second + h * third / 6.0));
+    let along = |column: &[f64]| dot(&point.residual, column) / norm;
+    let most = |low: f64, high: f64, slope: f64| (low * slope).max(high * slope);
+    let mut bound = along(&on.target);
+    for j in 0..3 {
+        let column = [on.base[0][j], on.base[1][j], on.base[2][j]];
+        bound -= most(curve.lower[j], curve.upper[j], along(&column));
+    }
+    let (mut low, mut high) = (curve.lower[3] * on.scale, curve.upper[3] * on.scale);
+    let rho = reach(length(&on.w[1][3..]), length(&on.w[2][3..]));
+    if let Some((middle, width)) = alpha(&on, rho, known) {
+        (low, high) = (low.max(middle - width), high.min(middle + width));
+        if low > high {
+            return known;
+        }
+    }
+    let (q, radius) = (along(&on.w[0]), reach(along(&on.w[1]).abs(), along(&on.w[2]).abs()));
+    bound -= most(low, high, q - radius).max(most(low, high, q + radius));
+    bound.max(0.0).powi(2).min(known)
+}
+
+/// Middle and half width of the scaled alpha of all candidates with a cost below `known`, where w moves
+/// by less than `rho`.
+fn alpha(on: &Columns, rho: f64, known: f64) -> Option<(f64, f64)> {
+    let (w, f) = (&on.w[0][3..on.used], &on.target[3..on.used]);
+    let height = length(w);
+    if height <= rho {
+        return None;
+    }
+    let middle = dot(w, f) / (height * height);
+    let rest: f64 = w.iter().zip(f).map(|(w, f)| (f - middle * w).powi(2)).sum();
+    let largest = (middle.abs() * height + known.sqrt()) / (height - rho);
+    let room = (known.sqrt() + largest * rho).powi(2) - rest;
+    // A little wider, for what rounding does to a difference of nearly equal numbers.
+    Some((middle, (room.max(0.0) + 1e-12 * known).sqrt() / height))
+}
+
+fn length(vector: &[f64]) -> f64 {
+    dot(vector, vector).sqrt()
+}

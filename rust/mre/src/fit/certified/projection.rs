@@ -1,0 +1,239 @@
+//! Linear least squares within a box, on a triangular factor: the linear coefficients of a model, given
+//! its nonlinear parameters.
+//!
+//! Active set (Stark and Parker 1995, Computational Statistics 10, 129-141): the free coefficients are
+//! solved with the others on their bounds; one that would leave its bounds is stopped there, and one
+//! that a bound holds against the slope is freed. The answer is exact to rounding.
+//! A column that depends on the others keeps its coefficient where it is.
+
+/// Columns with less than this share of their length outside the span of the others depend on them.
+const DEPENDENT: f64 = 1e-14;
+/// A slope below this share of its terms is rounding.
+const FLAT: f64 = 1e-14;
+
+/// The coefficients u within the bounds at which `||R u - g||` is least; R is upper triangular.
+///
+/// Where R does not decide them all, those stay as near to zero as the search left them.
+pub(crate) fn bounded<const N: usize>(
+    r: &[[f64; N]; N],
+    g: &[f64; N],
+    lower: &[f64; N],
+    upper: &[f64; N],
+) -> [f64; N] {
+    let mut u: [f64; N] = std::array::from_fn(|j| 0.0_f64.clamp(lower[j], upper[j]));
+    let mut free = [true; N];
+    let start = solve(r, g, &u, &free);
+    let inside = |j: usize| start[j] >= lower[j] && start[j] <= upper[j];
+    if (0..N).all(inside) {
+        return start;
+    }
+    for j in 0..N {
+        free[j] = inside(j);
+        u[j] = start[j].clamp(lower[j], upper[j]);
+    }
+    // Every pass over the outer loop lowers the cost; the count only guards against rounding.
+    for _ in 0..4 * 3_usize.pow(N as u32) {
+        descend(r, g, lower, upper, &mut u, &mut free);
+        if !release(r, g, lower, upper, &mut u, &mut free) {
+            break;
+        }
+    }
+    u
+}
+
+/// Solve for the free coefficients; stop those that would leave their bounds, until none does.
+fn descend<const N: usize>(
+    r: &[[f64; N]; N],
+    g: &[f64; N],
+    lower: &[f64; N],
+    upper: &[f64; N],
+    u: &mut [f64; N],
+    free: &mut [bool; N],
+) {
+    loop {
+        let z = solve(r, g, u, free);
+        let (mut share, mut stopped) = (1.0, None);
+        for j in (0..N).filter(|j| free[*j]) {
+            let bound = z[j].clamp(lower[j], upper[j]);
+            if bound != z[j] {
+                let step = ((bound - u[j]) / (z[j] - u[j])).max(0.0);
+                if step < share || stopped.is_none() {
+                    (share, stopped) = (step, Some((j, bound)));
+                }
+            }
+        }
+        for j in (0..N).filter(|j| free[*j]) {
+            u[j] = if stopped.is_some() { u[j] + share * (z[j] - u[j]) } else { z[j] };
+            u[j] = u[j].clamp(lower[j], upper[j]);
+        }
+        let Some((j, bound)) = stopped else { return };
+        (u[j], free[j]) = (bound, false);
+    }
+}
+
+/// Free the coefficient whose bound costs most, if that lowers the cost.
+fn release<const N: usize>(
+    r: &[[f64; N]; N],
+    g: &[f64; N],
+    lower: &[f64; N],
+    upper: &[f64; N],
+    u: &mut [f64; N],
+    free: &mut [bool; N],
+) -> bool {
+    let mut tried = *free;
+    loop {
+        let (mut steepest, mut which) = (0.0, None);
+        for j in (0..N).filter(|j| !tried[*j]) {
+            let (mut slope, mut size, mut length) = (0.0, 0.0, 0.0_f64);
+            for i in 0..=j {
+                let (mut rest, mut terms) = (g[i], g[i].abs());
+                for k in i..N {
+                    rest -= r[i][k] * u[k];
+                    terms += (r[i][k] * u[k]).abs();
+                }
+                slope += r[i][j] * rest;
+                size += (r[i][j] * terms).abs();
+                length += r[i][j] * r[i][j];
+            }
+            let inward = if u[j] <= lower[j] { slope } else { -slope };
+            let steepness = inward / length.sqrt();
+            if inward > FLAT * size && steepness > steepest && lower[j] < upper[j] {
+                (steepest, which) = (steepness, Some(j));
+            }
+        }
+        let Some(j) = which else { return false };
+        tried[j] = true;
+        free[j] = true;
+        // Only where it moves inward: by rounding it may not.
+        let z = solve(r, g, u, free)[j];
+        if (u[j] <= lower[j] && z > u[j]) || (u[j] >= upper[j] && z < u[j]) {
+            return true;
+        }
+        free[j] = false;
+    }
+}
+
+/// Least squares over the free coefficients, the others as they are in `u`.
+fn solve<const N: usize>(r: &[[f64; N]; N], g: &[f64; N], u: &[f64; N], free: &[bool; N]) -> [f64; N] {
+    let mut basis = [[0.0; N]; N];
+    let mut upper = [[0.0; N]; N];
+    let mut rest = *g;
+    let mut out = *u;
+    let mut kept = [false; N];
+    // Orthogonalise twice: exact to rounding for any condition.
+    for j in (0..N).filter(|j| free[*j]) {
+        let mut column: [f64; N] = std::array::from_fn(|i| if i <= j { r[i][j] } else { 0.0 });
+        let length = norm(&column);
+        for _ in 0..2 {
+            for k in (0..j).filter(|k| kept[*k]) {
+                let share = dot(&basis[k], &column);
+                upper[k][j] += share;
+                subtract(&mut column, share, &basis[k]);
+            }
+        }
+        let height = norm(&column);
+        kept[j] = height > DEPENDENT * length;
+        if kept[j] {
+            upper[j][j] = height;
+            basis[j] = column.map(|c| c / height);
+        }
+    }
+    for j in (0..N).filter(|j| !kept[*j]) {
+        let column = std::array::from_fn(|i| if i <= j { r[i][j] } else { 0.0 });
+        subtract(&mut rest, u[j], &column);
+    }
+    let mut right = [0.0; N];
+    for k in (0..N).filter(|k| kept[*k]) {
+        right[k] = dot(&basis[k], &rest);
+        subtract(&mut rest, right[k], &basis[k]);
+    }
+    for j in (0..N).rev().filter(|j| kept[*j]) {
+        let known: f64 = (j + 1..N).filter(|k| kept[*k]).map(|k| upper[j][k] * out[k]).sum();
+        out[j] = (right[j] - known) / upper[j][j];
+    }
+    out
+}
+
+fn dot<const N: usize>(a: &[f64; N], b: &[f64; N]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn norm<const N: usize>(a: &[f64; N]) -> f64 {
+    dot(a, a).sqrt()
+}
+
+fn subtract<const N: usize>(from: &mut [f64; N], share: f64, what: &[f64; N]) {
+    for (from, what) in from.iter_mut().zip(what) {
+        *from -= share * what;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const N: usize = 4;
+    type Matrix = [[f64; N]; N];
+
+    fn cost(r: &Matrix, g: &[f64; N], u: &[f64; N]) -> f64 {
+        (0..N).map(|i| (g[i] - (i..N).map(|k| r[i][k] * u[k]).sum::<f64>()).powi(2)).sum()
+    }
+
+    /// The best of all faces of the box.
+    fn by_faces(r: &Matrix, g: &[f64; N], lower: &[f64; N], upper: &[f64; N]) -> f64 {
+        let mut best = f64::INFINITY;
+        for face in 0..3_usize.pow(N as u32) {
+            let state: [usize; N] = std::array::from_fn(|j| face / 3_usize.pow(j as u32) % 3);
+            let u = std::array::from_fn(|j| if state[j] == 2 { upper[j] } else { lower[j] });
+            let z = solve(r, g, &u, &state.map(|s| s == 0));
+            if (0..N).all(|j| z[j] >= lower[j] && z[j] <= upper[j]) {
+                best = best.min(cost(r, g, &z));
+            }
+        }
+        best
+    }
+
+    fn triangle(entries: &[f64]) -> Matrix {
+        std::array::from_fn(|i| std::array::from_fn(|j| if i <= j { entries[i * N + j] } else { 0.0 }))
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(2000))]
+        #[test]
+        fn no_face_of_the_box_is_better(
+            entries in prop::array::uniform16(-1.0..1.0_f64),
+            g in prop::array::uniform4(-3.0..3.0_f64),
+            low in prop::array::uniform4(-2.0..1.0_f64),
+            width in prop::array::uniform4(0.01..3.0_f64),
+            squeeze in prop_oneof![Just(1.0), 1e-9..1e-3_f64],
+            dependent in prop::bool::ANY,
+        ) {
+            let mut r = triangle(&entries);
+            r[3][3] *= squeeze;
+            if dependent {
+                r[2] = [0.0, 0.0, 0.0, r[2][3]];
+            }
+            let high = std::array::from_fn(|j| low[j] + width[j]);
+            let u = bounded(&r, &g, &low, &high);
+            prop_assert!((0..N).all(|j| u[j] >= low[j] && u[j] <= high[j]));
+            let (got, wanted) = (cost(&r, &g, &u), by_faces(&r, &g, &low, &high));
+            prop_assert!(got <= wanted * (1.0 + 1e-10) + 1e-20, "{got} {wanted}");
+        }
+    }
+
+    #[test]
+    fn inside_the_box_it_is_the_solution() {
+        let r = triangle(&[2.0, 1.0, 0.5, 0.1, 0.0, 3.0, 1.0, 0.2, 0.0, 0.0, 1.0, 0.3, 0.0, 0.0, 0.0, 0.7]);
+        let truth = [0.3, -0.2, 0.9, -0.5];
+        let g = std::array::from_fn(|i| (0..N).map(|k| r[i][k] * truth[k]).sum());
+        let u = bounded(&r, &g, &[-1.0; N], &[1.0; N]);
+        assert!((0..N).all(|j| (u[j] - truth[j]).abs() < 1e-15));
+    }
+
+    #[test]
+    fn nothing_is_decided_by_a_zero_column() {
+        let u = bounded(&[[1.0, 0.0], [0.0, 0.0]], &[0.5, 2.0], &[0.0, 3.0], &[1.0, 4.0]);
+        assert_eq!(u, [0.5, 3.0]);
+    }
+}

@@ -1,0 +1,86 @@
+//! The sinh kernel of a problem: compressed where possible, sample by sample elsewhere.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use rayon::prelude::*;
+
+use super::sinh_compressed::{LANES, SinhCompressed};
+use super::sinh_direct::SinhDirect;
+use crate::fitness::finite_or_infinite;
+use crate::recording::Recording;
+
+/// Numbers of a candidate.
+const WIDTH: usize = 5;
+/// Fewer samples than this for every column of the factor: the direct kernel is as fast.
+const WORTHWHILE: usize = 4;
+/// Candidates that keep a thread busy for about as long as it takes to wake one.
+const GRAIN: usize = 1024;
+
+/// Recordings made ready for evaluations.
+#[derive(Debug)]
+pub(crate) struct Sinh {
+    direct: Vec<SinhDirect>,
+    weights: Vec<f64>,
+    compressed: Option<SinhCompressed>,
+    samples: usize,
+}
+
+impl Sinh {
+    /// Prepare recordings with a force, for candidates with beta up to `largest_beta`. Others are
+    /// evaluated too, but slowly.
+    pub(crate) fn new(recordings: &[Arc<Recording>], weights: &[f64], largest_beta: f64) -> Self {
+        let samples = recordings.iter().map(|r| r.scored().len()).sum();
+        Self {
+            direct: recordings.iter().map(|r| SinhDirect::new(r)).collect(),
+            weights: weights.to_vec(),
+            compressed: SinhCompressed::new(recordings, weights, largest_beta)
+                .filter(|c| samples >= WORTHWHILE * c.triangle().columns()),
+            samples,
+        }
+    }
+
+    /// Weighted sums of squares of candidates `[c0, k0, alpha, beta, F0]`, in parallel. After `cancel`
+    /// is set, NaN stands for those that were not evaluated.
+    pub(crate) fn sums_of_squares(&self, rows: &[f64], out: &mut [f64], cancel: &AtomicBool) {
+        let block = if self.compressed.is_some() { LANES } else { 1 };
+        let cost = if self.compressed.is_some() { 1 } else { (self.samples / 100).max(1) };
+        let some = |(rows, out): (&[f64], &mut [f64])| {
+            if cancel.load(Ordering::Relaxed) {
+                out.fill(f64::NAN);
+            } else {
+                self.block(rows, out);
+            }
+        };
+        let grain = (GRAIN / cost).max(1);
+        if out.len() <= grain {
+            rows.chunks(block * WIDTH).zip(out.chunks_mut(block)).for_each(some);
+        } else {
+            rows.par_chunks(block * WIDTH)
+                .zip(out.par_chunks_mut(block))
+                .with_min_len((grain / block).max(1))
+                .for_each(some);
+        }
+    }
+
+    fn block(&self, rows: &[f64], out: &mut [f64]) {
+        if let Some(compressed) = &self.compressed {
+            compressed.sums_of_squares(rows, out);
+        }
+        for (row, out) in rows.chunks_exact(WIDTH).zip(out) {
+            if !self.compressed.as_ref().is_some_and(|c| c.holds(row)) {
+                *out = self.direct(row);
+            }
+            *out = finite_or_infinite(*out);
+        }
+    }
+
+    fn direct(&self, row: &[f64]) -> f64 {
+        self.direct.iter().zip(&self.weights).map(|(k, w)| w * k.sum_of_squares(row)).sum()
+    }
+
+    /// The compressed samples, if they are.
+    pub(crate) fn compressed(&self) -> Option<&SinhCompressed> {
+        self.compressed.as_ref()
+    }
+}
