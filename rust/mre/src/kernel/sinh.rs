@@ -1,7 +1,7 @@
 //! The sinh kernel of a problem: compressed where possible, sample by sample elsewhere.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
 
 use rayon::prelude::*;
 
@@ -20,8 +20,10 @@ const GRAIN: usize = 1024;
 /// Recordings made ready for evaluations.
 #[derive(Debug)]
 pub(crate) struct Sinh {
-    direct: Vec<SinhDirect>,
+    recordings: Vec<Arc<Recording>>,
     weights: Vec<f64>,
+    /// Packed samples, once a candidate needs them.
+    direct: OnceLock<Vec<SinhDirect>>,
     compressed: Option<SinhCompressed>,
     samples: usize,
 }
@@ -32,8 +34,9 @@ impl Sinh {
     pub(crate) fn new(recordings: &[Arc<Recording>], weights: &[f64], largest_beta: f64) -> Self {
         let samples = recordings.iter().map(|r| r.scored().len()).sum();
         Self {
-            direct: recordings.iter().map(|r| SinhDirect::new(r)).collect(),
+            recordings: recordings.to_vec(),
             weights: weights.to_vec(),
+            direct: OnceLock::new(),
             compressed: SinhCompressed::new(recordings, weights, largest_beta)
                 .filter(|c| samples >= WORTHWHILE * c.triangle().columns()),
             samples,
@@ -76,7 +79,8 @@ impl Sinh {
     }
 
     fn direct(&self, row: &[f64]) -> f64 {
-        self.direct.iter().zip(&self.weights).map(|(k, w)| w * k.sum_of_squares(row)).sum()
+        let direct = self.direct.get_or_init(|| self.recordings.iter().map(|r| SinhDirect::new(r)).collect());
+        direct.iter().zip(&self.weights).map(|(k, w)| w * k.sum_of_squares(row)).sum()
     }
 
     /// The compressed samples, if they are.

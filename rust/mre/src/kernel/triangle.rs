@@ -131,17 +131,19 @@ mod tests {
         DMatrix::from_fn(rows, columns, |i, j| (0.37 * i as f64 * (j + 1) as f64 + j as f64).sin())
     }
 
+    fn copy(matrix: &DMatrix<f64>, first: usize, rows: usize, to: &mut [f64]) {
+        for (j, column) in to.chunks_exact_mut(ROWS).enumerate() {
+            for (i, value) in column[..rows].iter_mut().enumerate() {
+                *value = matrix[(first + i, j)];
+            }
+        }
+    }
+
     fn streamed(matrix: &DMatrix<f64>, block: usize) -> Triangle {
         let mut triangle = Triangle::new(matrix.ncols());
         for first in (0..matrix.nrows()).step_by(block) {
             let rows = block.min(matrix.nrows() - first);
-            triangle.absorb(rows, |to| {
-                for j in 0..matrix.ncols() {
-                    for i in 0..rows {
-                        to[j * ROWS + i] = matrix[(first + i, j)];
-                    }
-                }
-            });
+            triangle.absorb(rows, |to| copy(matrix, first, rows, to));
         }
         triangle
     }
@@ -171,6 +173,16 @@ mod tests {
         first.join(&streamed(&matrix.rows(300, 600).into_owned(), ROWS));
         let whole = streamed(&matrix, ROWS);
         alike(&first, |i, j| whole.at(i, j));
+    }
+
+    #[test]
+    fn every_instruction_set_gives_the_same() {
+        let matrix = wave(500, 14);
+        let best = streamed(&matrix, ROWS);
+        let mut plain = Triangle { isa: Isa::Plain, ..Triangle::new(14) };
+        plain.absorb(250, |to| copy(&matrix, 0, 250, to));
+        plain.absorb(250, |to| copy(&matrix, 250, 250, to));
+        alike(&plain, |i, j| best.at(i, j));
     }
 
     #[test]

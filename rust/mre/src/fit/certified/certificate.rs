@@ -21,8 +21,10 @@ use super::{Exact, Kind, sinh_exact};
 use crate::error::Result;
 use crate::fitness::Problem;
 
-/// Most intervals: some tenths of a second.
+/// Most intervals: some tenths of a second on a compressed problem.
 const MOST: u64 = 500_000;
+/// The same where every interval takes a pass over the samples.
+const MOST_PASSES: u64 = 10_000;
 /// Share of the squared force below which a cost is rounding.
 const NOTHING: f64 = 1e-26;
 
@@ -61,9 +63,10 @@ pub fn certificate(problem: &Problem, exact: &Exact, tolerance: f64) -> Result<C
         .collect();
     // Half of the tolerance, so that roundings do not keep an interval open.
     let enough = exact.cost * (1.0 - 0.5 * tolerance);
+    let most = if curve.is_compressed() { MOST } else { MOST_PASSES };
     let (mut lower, mut evaluations) = (exact.cost, 0);
     while let Some(cell) = cells.pop() {
-        if evaluations >= MOST {
+        if evaluations >= most {
             lower = lower.min(cell.bound);
             continue;
         }

@@ -84,6 +84,11 @@ impl<'a> Curve<'a> {
         Self { problem, source, farthest, lower: pick(low), upper: pick(high) }
     }
 
+    /// True where a point costs the same for any number of samples.
+    pub(super) fn is_compressed(&self) -> bool {
+        !matches!(self.source, Source::Samples)
+    }
+
     /// Values in the order of the problem.
     pub(super) fn values(&self, point: &Point) -> Vec<f64> {
         let [c0, f0, k0, alpha] = point.u;
