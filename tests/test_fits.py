@@ -133,3 +133,5 @@ def test_wrong_settings_are_named(sinh_recording: Recording) -> None:
         mre_core.identify(sinh_recording, optimizer="exact", max_iterations=3)
     with pytest.raises(mre_core.MreError, match="max_evaluations is 0"):
         mre_core.hybrid(Problem(sinh_recording), seed=1, max_evaluations=0)
+    with pytest.raises(mre_core.MreError, match="x0 is NaN"):
+        mre_core.hybrid(Problem(sinh_recording), seed=1, x0=[1.0, np.nan, 1.0, 0.1, 0.0])

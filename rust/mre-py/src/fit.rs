@@ -6,12 +6,11 @@ use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::array::rows;
 use crate::error::to_python;
 use crate::problem::Problem;
 use crate::run::{Ended, in_pool, raises};
 use crate::settings::{budget, fish};
-use crate::swarm::{history_to_python, name_of};
+use crate::swarm::{history_to_python, name_of, read_start};
 
 type Outcome<'py> = (Bound<'py, PyArray1<f64>>, f64, u64, &'static str, Bound<'py, PyDict>);
 
@@ -55,8 +54,7 @@ pub(crate) fn fit_hybrid<'py>(
     let budget = budget(max_evaluations, time_limit, target)?;
     let raise = raises(on_interrupt)?;
     let settings = fish(settings)?;
-    let start =
-        start.map(|x0| rows("x0", x0, problem.inner.parameters().len())).transpose()?.map(|(row, _)| row);
+    let start = start.map(|x0| read_start(x0, problem.inner.parameters().len())).transpose()?;
     let (fit, ended) = in_pool(py, threads, callback.as_ref(), raise, |link| {
         let mut monitor = link;
         fit::hybrid(&problem.inner, settings, seed, start.as_deref(), &budget, &mut monitor, link.cancel())

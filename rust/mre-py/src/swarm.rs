@@ -25,6 +25,15 @@ pub(crate) struct Swarm {
     state: Mutex<Box<dyn Core>>,
 }
 
+/// Where an optimisation starts.
+pub(crate) fn read_start(x0: &Bound<'_, PyAny>, dimension: usize) -> PyResult<Vec<f64>> {
+    let (row, _) = rows("x0", x0, dimension)?;
+    match row.iter().find(|value| !value.is_finite()) {
+        Some(bad) => Err(setting("x0", bad, "finite numbers")),
+        None => Ok(row),
+    }
+}
+
 /// Columns of a history.
 pub(crate) fn history_to_python<'py>(py: Python<'py>, history: &History) -> PyResult<Bound<'py, PyDict>> {
     let dict = PyDict::new(py);
@@ -127,14 +136,10 @@ impl Swarm {
             _ => return Err(setting("bounds", "missing", "a pair (lower, upper) for each parameter")),
         };
         let start = start
-            .map(|start| {
-                let (row, _) = rows("x0", start, bounds.len())?;
-                if let Some(bad) = row.iter().find(|value| !value.is_finite()) {
-                    return Err(setting("x0", bad, "finite numbers"));
-                }
+            .map(|x0| {
                 let mut unit = vec![0.0; bounds.len()];
-                bounds.to_unit(&row, &mut unit);
-                Ok(unit)
+                bounds.to_unit(&read_start(x0, bounds.len())?, &mut unit);
+                Ok::<_, PyErr>(unit)
             })
             .transpose()?;
         let state: Box<dyn Core> = if kind == "pso" {

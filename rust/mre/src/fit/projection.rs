@@ -19,7 +19,8 @@ pub(crate) struct Projection<'a> {
     /// Places of the shapes among the parameters, and of the coefficients.
     shapes: Vec<usize>,
     coefficients: Vec<usize>,
-    plans: Vec<Plan>,
+    /// For the simulations of Bouc-Wen, one a recording: its plan, and the products that no shape changes.
+    lanes: Vec<(Plan, Gram)>,
     cancel: &'a AtomicBool,
 }
 
@@ -30,12 +31,12 @@ impl<'a> Projection<'a> {
     pub(crate) fn new(problem: &'a Problem, cancel: &'a AtomicBool) -> Self {
         let is_shape = problem.law().shapes(problem.model());
         let places = |wanted: bool| (0..is_shape.len()).filter(|i| is_shape[*i] == wanted).collect();
-        let plans = if problem.model().name() == "bouc_wen" {
-            problem.recordings().iter().map(|r| Plan::new(r)).collect()
+        let lanes = if problem.model().name() == "bouc_wen" {
+            problem.recordings().iter().map(|r| (Plan::new(r), fixed_products(r))).collect()
         } else {
             Vec::new()
         };
-        Self { problem, shapes: places(true), coefficients: places(false), plans, cancel }
+        Self { problem, shapes: places(true), coefficients: places(false), lanes, cancel }
     }
 
     /// Number of shapes.
@@ -50,7 +51,7 @@ impl<'a> Projection<'a> {
             return vec![self.solve(&[]).1];
         }
         let rows: Vec<Vec<f64>> = unit.chunks_exact(d).map(|row| self.physical(row)).collect();
-        if self.plans.is_empty() || *self.problem.law() != Law::Shared {
+        if self.lanes.is_empty() || *self.problem.law() != Law::Shared {
             let cost =
                 |row: &Vec<f64>| if self.cancelled() { f64::NAN } else { self.best(row, &self.gram(row)).1 };
             return rows.par_iter().map(cost).collect();
@@ -138,13 +139,12 @@ impl<'a> Projection<'a> {
     fn lane_grams(&self, rows: &[Vec<f64>]) -> Vec<Gram> {
         let shapes: Vec<[f64; 3]> = rows.iter().map(|row| [row[3], row[4], row[5]]).collect();
         let mut grams = vec![DMatrix::zeros(5, 5); rows.len()];
-        for ((recording, plan), weight) in
-            self.problem.recordings().iter().zip(&self.plans).zip(self.problem.weights())
+        for ((recording, (plan, fixed)), weight) in
+            self.problem.recordings().iter().zip(&self.lanes).zip(self.problem.weights())
         {
             let sums = products(recording, plan, &shapes);
-            let fixed = fixed_products(recording);
             for (l, gram) in grams.iter_mut().enumerate() {
-                *gram += &fixed * *weight;
+                *gram += fixed * *weight;
                 for (place, sum) in [(0, 0), (1, 1), (3, 2), (4, 3)] {
                     gram[(2, place)] += weight * sums[sum][l];
                     gram[(place, 2)] = gram[(2, place)];
