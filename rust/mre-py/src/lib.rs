@@ -6,6 +6,7 @@ use pyo3::prelude::*;
 
 mod array;
 mod device;
+mod diagnose;
 mod error;
 mod fit;
 mod problem;
@@ -18,6 +19,8 @@ mod swarm;
 mod _core {
     #[pymodule_export]
     use crate::device::{check, classical, models, parameters, simulate};
+    #[pymodule_export]
+    use crate::diagnose::diagnose_raw;
     #[pymodule_export]
     use crate::error::MreError;
     #[pymodule_export]

@@ -7,6 +7,7 @@
 use crate::error::{Error, Result};
 use crate::extent::Extent;
 use crate::model::Model;
+use crate::physics::Part;
 use crate::recording::{Condition, Recording};
 
 /// Parameters at one current.
@@ -97,6 +98,28 @@ impl Device {
             self.model.name()
         );
         Err(Error::Recording(text).in_recording(recording.name()))
+    }
+
+    /// The force in N term by term, with what each term does with energy.
+    ///
+    /// # Errors
+    /// As [`Device::simulate`], but for the force itself, which is not checked.
+    pub(crate) fn parts(&self, recording: &Recording) -> Result<Vec<(Part, Vec<f64>)>> {
+        let current = if self.levels.len() > 1 { currents(recording)? } else { vec![0.0; recording.len()] };
+        let mut found = Vec::new();
+        let mut column = vec![0.0; recording.len()];
+        for (k, level) in self.levels.iter().enumerate() {
+            let weight: Vec<f64> = current.iter().map(|i| self.weight(k, *i)).collect();
+            let mut next = 0;
+            for term in self.model.terms() {
+                let shape = next + 1..next + 1 + term.shape(&Extent::UNIT).len();
+                term.column(recording, &level.values[shape.clone()], &mut column);
+                let c = level.values[next];
+                found.push((term.part(), column.iter().zip(&weight).map(|(v, w)| c * v * w).collect()));
+                next = shape.end;
+            }
+        }
+        Ok(found)
     }
 
     /// Share of level `k` in the force at a current.

@@ -8,6 +8,7 @@ use crate::extent::Extent;
 use crate::fitness::Scratch;
 use crate::model::Model;
 use crate::parameter::Parameter;
+use crate::physics::Part;
 use crate::recording::{Condition, Recording, extent as range};
 
 /// The law of a problem.
@@ -99,6 +100,13 @@ impl Law {
                 plain.zip(split).flat_map(|(shape, two)| vec![shape; if *two { 2 } else { 1 }]).collect()
             }
         }
+    }
+
+    /// The part of every coefficient, in their order among the parameters.
+    pub(crate) fn parts(&self, model: &Model) -> Vec<Part> {
+        let two = |follows: bool| if follows && matches!(self, Self::Affine { .. }) { 2 } else { 1 };
+        let terms = model.terms().iter();
+        terms.flat_map(|term| vec![term.part(); two(term.follows_current())]).collect()
     }
 
     /// Columns of the coefficients, in their order among the parameters, for given shapes.

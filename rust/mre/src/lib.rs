@@ -30,7 +30,10 @@
 //! # Ok::<(), mre::error::Error>(())
 //! ```
 
+pub mod assembly;
 pub mod device;
+pub mod diagnose;
+pub mod effect;
 pub mod error;
 pub mod extent;
 pub mod fit;

@@ -183,6 +183,17 @@ impl Recording {
         Ok(Self { velocity_window, ..self.with_scored(scored)? })
     }
 
+    /// The same recording with another motion, and another current where given; all of one length.
+    pub(crate) fn seen_with(&self, displacement: Vec<f64>, velocity: Vec<f64>, current: Option<Vec<f64>>) -> Self {
+        let mut seen = self.clone();
+        seen.series.displacement = displacement;
+        seen.velocity = velocity;
+        if let Some(current) = current {
+            seen.series.current = Condition::Series(current);
+        }
+        seen
+    }
+
     /// The part between two times in s. What is cut off is forgotten: a simulation of the rest
     /// starts rested.
     ///

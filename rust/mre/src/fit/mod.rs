@@ -1,6 +1,6 @@
 //! Exact fits: linear coefficients by projection, shapes by search and polish.
 
-mod bounded;
+pub(crate) mod bounded;
 pub mod certified;
 mod descent;
 mod projection;

@@ -11,6 +11,7 @@ pub(crate) mod bouc_wen_gram;
 mod bouc_wen_rk4;
 mod dispatch;
 pub(crate) mod elementary;
+pub(crate) mod filter;
 pub(crate) mod hysteretic;
 mod lanes;
 mod sinh;

@@ -7,7 +7,7 @@
 //! Source: Yu, Li and Li, ISARC 2014, eq. 1 and 3.
 //! Known limit: energy per cycle grows with frequency, which filled rubber does not do.
 
-use super::Term;
+use super::{Part, Term};
 use crate::extent::Extent;
 use crate::parameter::{Parameter, Scale};
 use crate::recording::Recording;
@@ -17,6 +17,10 @@ use crate::recording::Recording;
 pub struct Dashpot;
 
 impl Term for Dashpot {
+    fn part(&self) -> Part {
+        Part::Damping
+    }
+
     fn coefficient(&self, extent: &Extent) -> Parameter {
         Parameter {
             name: "c0".into(),

@@ -19,8 +19,24 @@ use crate::extent::Extent;
 use crate::parameter::Parameter;
 use crate::recording::Recording;
 
+/// What a term does with energy: effects scale terms by it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Part {
+    /// Stores it, or is hysteretic.
+    Stiffness,
+    /// Viscous.
+    Damping,
+    /// Neither.
+    Offset,
+}
+
 /// A term of a model.
 pub trait Term: Send + Sync {
+    /// What the term does with energy.
+    fn part(&self) -> Part {
+        Part::Stiffness
+    }
+
     /// The linear coefficient, with its default box.
     fn coefficient(&self, extent: &Extent) -> Parameter;
 

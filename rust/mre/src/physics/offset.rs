@@ -7,7 +7,7 @@
 //! Source: Yu, Li and Li, ISARC 2014, eq. 3.
 //! Known limit: a zero error of the load cell and a gas preload look the same.
 
-use super::Term;
+use super::{Part, Term};
 use crate::extent::Extent;
 use crate::parameter::{Parameter, Scale};
 use crate::recording::Recording;
@@ -17,6 +17,10 @@ use crate::recording::Recording;
 pub struct Offset;
 
 impl Term for Offset {
+    fn part(&self) -> Part {
+        Part::Offset
+    }
+
     fn coefficient(&self, extent: &Extent) -> Parameter {
         let width = (0.25 + extent.lean) * extent.force;
         Parameter {

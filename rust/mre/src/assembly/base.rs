@@ -1,0 +1,60 @@
+//! The base of an assembly: a model with parameters for every level of the current, or a given force.
+
+use std::sync::Arc;
+
+use crate::error::Result;
+use crate::fitness::{Problem, Weights};
+use crate::model::Model;
+use crate::recording::Recording;
+
+/// Recordings that share the parameters of the base model.
+#[derive(Debug)]
+pub struct Group {
+    /// Their places in the campaign.
+    pub members: Vec<usize>,
+    /// Model, law and default box.
+    pub problem: Problem,
+    /// Places of the coefficients among the problem's parameters.
+    pub coefficients: Vec<usize>,
+    /// Places of the shapes.
+    pub shapes: Vec<usize>,
+}
+
+/// What the effects are added to.
+#[derive(Debug)]
+pub enum Base {
+    /// A model that is fitted, in groups that share parameters.
+    Fitted(Vec<Group>),
+    /// A force in N for every recording, which is kept as it is.
+    Given(Vec<Vec<f64>>),
+}
+
+impl Base {
+    /// A model whose parameters are shared within groups of recordings.
+    ///
+    /// # Errors
+    /// As [`Problem::new`].
+    pub fn fitted(recordings: &[Arc<Recording>], model: &str, groups: &[Vec<usize>]) -> Result<Self> {
+        let groups = groups.iter().map(|members| {
+            let own = members.iter().map(|i| recordings[*i].clone()).collect();
+            let problem = Problem::new(own, Model::named(model)?, &[], &Weights::Samples)?;
+            let is_shape = problem.law().shapes(problem.model());
+            let places = |wanted: bool| (0..is_shape.len()).filter(|i| is_shape[*i] == wanted).collect();
+            Ok(Group {
+                members: members.clone(),
+                coefficients: places(false),
+                shapes: places(true),
+                problem,
+            })
+        });
+        Ok(Self::Fitted(groups.collect::<Result<_>>()?))
+    }
+
+    /// The groups of a fitted base.
+    pub fn groups(&self) -> &[Group] {
+        match self {
+            Self::Fitted(groups) => groups,
+            Self::Given(_) => &[],
+        }
+    }
+}

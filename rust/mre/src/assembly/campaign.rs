@@ -1,0 +1,110 @@
+//! The recordings of a diagnosis, with what effects need of them.
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use crate::effect::{Scene, Sizes};
+use crate::error::{Error, Result};
+use crate::recording::{Condition, Recording};
+use crate::velocity;
+
+/// Recordings with derived accelerations and sizes.
+#[derive(Debug, Clone)]
+pub struct Campaign {
+    recordings: Vec<Arc<Recording>>,
+    accelerations: Vec<Vec<f64>>,
+    currents: Vec<Option<Vec<f64>>>,
+    before: Vec<f64>,
+    sizes: Sizes,
+}
+
+impl Campaign {
+    /// Recordings with force, evenly sampled.
+    ///
+    /// # Errors
+    /// No recording, one without force, or one whose samples are not evenly spaced.
+    pub fn new(recordings: Vec<Arc<Recording>>) -> Result<Self> {
+        if recordings.is_empty() {
+            return Err(Error::setting("recordings", "an empty list", "at least one recording"));
+        }
+        for recording in &recordings {
+            if recording.force().is_none() {
+                let text = "no force: a diagnosis needs one";
+                return Err(Error::Recording(text.into()).in_recording(recording.name()));
+            }
+            evenly_sampled(recording)?;
+        }
+        let sizes = Sizes::of(recordings.iter().map(AsRef::as_ref));
+        Ok(Self::with_sizes(recordings, sizes))
+    }
+
+    /// The same for a simulation, with the sizes of the recordings that the effects were fitted to.
+    pub(crate) fn with_sizes(recordings: Vec<Arc<Recording>>, sizes: Sizes) -> Self {
+        let accelerations = recordings
+            .par_iter()
+            .map(|r| velocity::from_displacement(r.time(), r.velocity()).velocity)
+            .collect();
+        let currents = recordings.iter().map(|r| current(r)).collect();
+        let mut total = 0.0;
+        let before = recordings
+            .iter()
+            .map(|r| {
+                let start = total;
+                total += r.time()[r.len() - 1] - r.time()[0];
+                start
+            })
+            .collect();
+        Self { recordings, accelerations, currents, before, sizes }
+    }
+
+    /// The recordings.
+    pub fn recordings(&self) -> &[Arc<Recording>] {
+        &self.recordings
+    }
+
+    /// Sizes over all recordings.
+    pub fn sizes(&self) -> &Sizes {
+        &self.sizes
+    }
+
+    /// What effects see of a recording, given the force of the base model alone.
+    pub fn scene<'a>(&'a self, r: usize, force: &'a [f64]) -> Scene<'a> {
+        let recording = &self.recordings[r];
+        Scene {
+            time: recording.time(),
+            displacement: recording.displacement(),
+            velocity: recording.velocity(),
+            acceleration: &self.accelerations[r],
+            current: self.currents[r].as_deref(),
+            force,
+            before: self.before[r],
+            sizes: &self.sizes,
+        }
+    }
+}
+
+fn current(recording: &Recording) -> Option<Vec<f64>> {
+    match recording.current() {
+        Condition::Missing => None,
+        Condition::Constant(i) => Some(vec![*i; recording.len()]),
+        Condition::Series(i) => Some(i.clone()),
+    }
+}
+
+/// Time stamps within half a step of an even grid: rounded ones are.
+fn evenly_sampled(recording: &Recording) -> Result<()> {
+    let time = recording.time();
+    let step = (time[time.len() - 1] - time[0]) / (time.len() - 1) as f64;
+    for (i, t) in time.iter().enumerate() {
+        let expected = time[0] + step * i as f64;
+        if (t - expected).abs() > 0.75 * step {
+            let text = format!(
+                "time is {t} s at sample {i}, on an even grid of {step:.6} s it would be {expected:.6} s: a \
+                 diagnosis needs evenly spaced samples; resample, or cut the recording at its gap"
+            );
+            return Err(Error::Recording(text).in_recording(recording.name()));
+        }
+    }
+    Ok(())
+}

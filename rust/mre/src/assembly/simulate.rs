@@ -1,0 +1,90 @@
+//! Simulation of a device with effects: its force, without drift, interference and clipping.
+
+use std::sync::Arc;
+
+use super::campaign::Campaign;
+use crate::device::Device;
+use crate::effect::{Effect, Factors, Sizes};
+use crate::error::{Error, Result};
+use crate::physics::Part;
+use crate::recording::Recording;
+
+/// An effect with its parameters.
+#[derive(Clone)]
+pub struct Addition {
+    /// The law.
+    pub effect: &'static dyn Effect,
+    /// Coefficients of its columns; empty for one of the measurement.
+    pub coefficients: Vec<f64>,
+    /// Nonlinear parameters.
+    pub shape: Vec<f64>,
+}
+
+/// Restoring force in N of a device with effects at every sample of a recording.
+///
+/// `sizes` are those of the recordings that the effects were fitted to.
+///
+/// # Errors
+/// As [`Device::simulate`]; a force that is not finite.
+pub fn simulate(
+    device: &Device,
+    additions: &[Addition],
+    sizes: &Sizes,
+    recording: &Arc<Recording>,
+) -> Result<Vec<f64>> {
+    let alone = device.simulate(recording)?;
+    if additions.is_empty() {
+        return Ok(alone);
+    }
+    let campaign = Campaign::with_sizes(vec![recording.clone()], sizes.clone());
+    let scene = campaign.scene(0, &alone);
+    let mut seen = recording.as_ref().clone();
+    let mut factors: Vec<Factors> = Vec::new();
+    for Addition { effect, shape, .. } in additions {
+        let mut own = scene;
+        (own.displacement, own.velocity) = (seen.displacement(), seen.velocity());
+        let (motion, current) = (effect.motion(&own, shape), effect.current(&own, shape));
+        factors.extend(effect.factors(&scene, shape));
+        if motion.is_some() || current.is_some() {
+            let (x, v) = motion.map_or_else(
+                || (own.displacement.to_vec(), own.velocity.to_vec()),
+                |m| (m.displacement, m.velocity),
+            );
+            seen = recording.seen_with(x, v, current);
+        }
+    }
+    let mut force = vec![0.0; recording.len()];
+    for (part, column) in device.parts(&seen)? {
+        for (i, value) in column.into_iter().enumerate() {
+            let share: f64 = factors.iter().map(|f| factor(f, part, i)).product();
+            force[i] += share * value;
+        }
+    }
+    for Addition { effect, coefficients, shape } in additions {
+        if !effect.of_the_measurement() {
+            for (c, column) in coefficients.iter().zip(effect.columns(&scene, shape)) {
+                for (f, value) in force.iter_mut().zip(column) {
+                    *f += c * value;
+                }
+            }
+        }
+    }
+    for Addition { effect, shape, .. } in additions {
+        force = effect.through(&scene, shape, &force).unwrap_or(force);
+    }
+    match force.iter().position(|f| !f.is_finite()) {
+        None => Ok(force),
+        Some(i) => {
+            let text = format!("the force with effects is not finite at {} s", recording.time()[i]);
+            Err(Error::Recording(text).in_recording(recording.name()))
+        }
+    }
+}
+
+fn factor(factors: &Factors, part: Part, i: usize) -> f64 {
+    match part {
+        Part::Stiffness => factors.stiffness[i],
+        Part::Damping => factors.damping.as_ref().map_or(1.0, |d| d[i]),
+        Part::Offset => 1.0,
+    }
+}

@@ -1,0 +1,73 @@
+//! The first fit of the base model, from several starts, and the noise that it leaves.
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use super::least_squares::{Data, Fitted, Point, refine, refine_at_most};
+use super::name::noise_left;
+use super::noise::Noise;
+use super::normal::Rows;
+use crate::assembly::{Assembly, Base, Campaign};
+
+/// Steps of the first descents.
+const FEW: usize = 8;
+
+/// A base on a campaign with its fit; effects refer to its force.
+#[derive(Clone)]
+pub struct Begun<'a> {
+    /// The base without effects.
+    pub assembly: Assembly<'a>,
+    /// Its fit on whitened data.
+    pub fitted: Fitted,
+    /// Noise that it leaves.
+    pub noise: Noise,
+}
+
+/// Fit a base on the rows that count.
+pub fn begin<'a>(campaign: &'a Campaign, base: &'a Base, rows: &[Rows]) -> Begun<'a> {
+    let count = campaign.recordings().len();
+    let nothing = campaign.recordings().iter().map(|r| vec![0.0; r.len()]).collect();
+    let assembly = Assembly::new(campaign, base, Vec::new(), Arc::new(nothing));
+    let white = Noise::white(count, 0.01 * campaign.sizes().force);
+    let data = Data { noise: &white, rows };
+    let starts = starts(base);
+    let first = starts
+        .par_iter()
+        .map(|start| refine_at_most(&assembly, data, start, FEW))
+        .collect::<Vec<_>>()
+        .into_iter()
+        .min_by(|a, b| a.left.total_cmp(&b.left))
+        .map_or_else(Vec::new, |fit| fit.unit);
+    let coarse = refine(&assembly, data, &first);
+    let noise = noise_left(&assembly, data, &coarse);
+    let data = Data { noise: &noise, rows };
+    let fitted = refine(&assembly, data, &coarse.unit);
+    let force: Vec<Vec<f64>> = Point::at(&assembly, data, fitted.unit.clone())
+        .recordings
+        .into_iter()
+        .map(|local| local.force)
+        .collect();
+    let noise = noise_left(&assembly, data, &fitted);
+    Begun { assembly: assembly.referring_to(force), fitted, noise }
+}
+
+/// Points of the unit box for the shapes of every group: the same place in each group.
+fn starts(base: &Base) -> Vec<Vec<f64>> {
+    let shapes = base.groups().first().map_or(0, |g| g.shapes.len());
+    let places: Vec<Vec<f64>> = match shapes {
+        0 => vec![Vec::new()],
+        1 => [0.1, 0.35, 0.7].iter().map(|u| vec![*u]).collect(),
+        _ => [0.1, 0.3, 0.5, 0.7, 0.9]
+            .iter()
+            .flat_map(|first| {
+                [0.1, 0.5].iter().map(move |last| {
+                    let mut start = vec![0.3; shapes];
+                    (start[0], start[shapes - 1]) = (*first, *last);
+                    start
+                })
+            })
+            .collect(),
+    };
+    places.into_iter().map(|start| start.repeat(base.groups().len())).collect()
+}

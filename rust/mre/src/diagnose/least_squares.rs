@@ -1,0 +1,332 @@
+//! Joint least squares of an assembly on whitened data: coefficients exactly, shapes by Gauss-Newton
+//! steps in the unit box (variable projection, Golub and Pereyra 1973, in the form of Ruhe and Wedin 1980).
+
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+use super::noise::Noise;
+use super::normal::{Normal, Rows, whitened};
+use crate::assembly::{Assembly, Columns};
+use crate::fit::bounded;
+use crate::kernel::filter::dot;
+
+/// Step of the difference quotients, in the unit box.
+const STEP: f64 = 1e-4;
+/// Steps at most.
+const MOST: usize = 25;
+/// The search ends when a step gains less than this (in squared standard deviations).
+const LEAST_GAIN: f64 = 1e-2;
+
+/// An assembly with fitted parameters.
+#[derive(Debug, Clone)]
+pub struct Fitted {
+    /// Shapes in the unit box.
+    pub unit: Vec<f64>,
+    /// Linear coefficients.
+    pub coefficients: Vec<f64>,
+    /// Whitened sum of squares left.
+    pub left: f64,
+    /// Rows it is summed over.
+    pub rows: usize,
+}
+
+/// What a fit is made on.
+#[derive(Debug, Clone, Copy)]
+pub struct Data<'a> {
+    /// Noise of the recordings.
+    pub noise: &'a Noise,
+    /// Samples that count, by recording.
+    pub rows: &'a [Rows],
+}
+
+/// Descend from a point of the unit box.
+pub fn refine(assembly: &Assembly, data: Data, start: &[f64]) -> Fitted {
+    refine_at_most(assembly, data, start, MOST)
+}
+
+/// Descend with a limited number of steps.
+pub fn refine_at_most(assembly: &Assembly, data: Data, start: &[f64], most: usize) -> Fitted {
+    let mut here = Point::at(assembly, data, start.to_vec());
+    if start.is_empty() {
+        return here.fitted;
+    }
+    let mut damping = 1e-3;
+    let mut full = None;
+    for _ in 0..most {
+        let system = full.get_or_insert_with(|| here.with_tangents(assembly, data));
+        let step = step(system, here.fitted.coefficients.len(), damping, &here.fitted.unit);
+        let unit: Vec<f64> =
+            here.fitted.unit.iter().zip(step.iter()).map(|(u, s)| (u + s).clamp(0.0, 1.0)).collect();
+        let next = Point::at(assembly, data, unit);
+        let gain = here.fitted.left - next.fitted.left;
+        if gain > 0.0 {
+            (here, full) = (next, None);
+            damping = (damping * 0.2).max(1e-7);
+            if gain < LEAST_GAIN {
+                break;
+            }
+        } else {
+            damping *= 20.0;
+            if damping > 1e4 {
+                break;
+            }
+        }
+    }
+    here.fitted
+}
+
+/// Damped Gauss-Newton step of the shapes; those on a wall stay where the step points out of the box.
+fn step(system: &Normal, coefficients: usize, damping: f64, unit: &[f64]) -> DVector<f64> {
+    let (k, d) = (coefficients, unit.len());
+    let mut held = vec![false; d];
+    loop {
+        let scale: Vec<f64> =
+            (0..k + d).map(|i| system.gram[(i, i)].sqrt().max(f64::MIN_POSITIVE.sqrt())).collect();
+        let open: Vec<usize> =
+            (0..k + d).filter(|i| system.gram[(*i, *i)] > 0.0 && (*i < k || !held[i - k])).collect();
+        let matrix = DMatrix::from_fn(open.len(), open.len(), |a, b| {
+            let (i, j) = (open[a], open[b]);
+            let ridge = if a == b { if i < k { 1e-12 } else { damping } } else { 0.0 };
+            system.gram[(i, j)] / (scale[i] * scale[j]) + ridge
+        });
+        let right = DVector::from_fn(open.len(), |a, _| system.right[open[a]] / scale[open[a]]);
+        let mut found = DVector::zeros(d);
+        let Some(factor) = matrix.cholesky() else { return found };
+        let solution = factor.solve(&right);
+        for (a, i) in open.iter().enumerate() {
+            if *i >= k {
+                found[i - k] = solution[a] / scale[*i];
+            }
+        }
+        let outward =
+            |j: usize| (unit[j] <= 0.0 && found[j] < 0.0) || (unit[j] >= 1.0 && found[j] > 0.0);
+        let mut more = false;
+        for j in 0..d {
+            if !held[j] && outward(j) {
+                (held[j], more) = (true, true);
+            }
+        }
+        if !more {
+            // No step leaves the trusted part of the box.
+            let longest = found.iter().fold(0.0_f64, |m, s| m.max(s.abs()));
+            return if longest > 0.3 { found * (0.3 / longest) } else { found };
+        }
+    }
+}
+
+/// An assembly at given shapes, with its best coefficients.
+pub(super) struct Point {
+    pub(super) fitted: Fitted,
+    pub(super) recordings: Vec<Local>,
+    normal: Normal,
+}
+
+/// One recording at a point.
+pub(super) struct Local {
+    /// Whitened columns with their places.
+    pub(super) columns: Vec<(usize, Vec<f64>)>,
+    /// Force of the point, N.
+    pub(super) force: Vec<f64>,
+    /// Whitened residual.
+    pub(super) residual: Vec<f64>,
+}
+
+impl Point {
+    /// The best coefficients for given shapes.
+    pub(super) fn at(assembly: &Assembly, data: Data, unit: Vec<f64>) -> Self {
+        let shapes = assembly.physical(&unit);
+        let count = assembly.campaign().recordings().len();
+        let raw: Vec<Columns> = (0..count).into_par_iter().map(|r| assembly.columns(r, &shapes)).collect();
+        let coefficients = assembly.coefficients();
+        let mut values = vec![0.0; coefficients.len()];
+        let mut masks = censored_by_measurement(assembly, &raw);
+        // Which samples are clipped follows from the force, and the force from the fit without them.
+        let passes = if raw.iter().any(|c| c.clip.is_some()) { 3 } else { 1 };
+        let mut normal = Normal::zeros(values.len());
+        let mut whitened = Vec::new();
+        for pass in 0..passes {
+            (whitened, normal) = gather(assembly, data, &raw, &masks, values.len());
+            let lower: Vec<f64> = coefficients.iter().map(|p| p.smallest).collect();
+            let upper: Vec<f64> = coefficients.iter().map(|p| p.largest).collect();
+            values = bounded::minimise(&normal.gram, &normal.right, &lower, &upper);
+            if pass + 1 < passes {
+                masks = raw.iter().map(|c| censored(c, &force(c, &values))).collect();
+            }
+        }
+        let recordings: Vec<Local> = raw
+            .iter()
+            .zip(whitened)
+            .map(|(c, (columns, target))| {
+                let mut residual = target;
+                for (place, column) in &columns {
+                    for (e, value) in residual.iter_mut().zip(column) {
+                        *e -= values[*place] * value;
+                    }
+                }
+                Local { columns, force: clipped(c, force(c, &values)), residual }
+            })
+            .collect();
+        let left: f64 = recordings.iter().map(|l| dot(&l.residual, &l.residual)).sum();
+        let left = if left.is_finite() { left } else { f64::INFINITY };
+        let fitted = Fitted { unit, coefficients: values, left, rows: normal.rows };
+        Self { fitted, recordings, normal }
+    }
+
+    /// Normal equations of coefficients and shapes together, for the residual.
+    fn with_tangents(&self, assembly: &Assembly, data: Data) -> Normal {
+        let (k, d) = (self.fitted.coefficients.len(), self.fitted.unit.len());
+        let parts: Vec<Normal> = (0..self.recordings.len())
+            .into_par_iter()
+            .map(|r| {
+                let local = &self.recordings[r];
+                let mut columns = self.tangents(assembly, data, r);
+                let first = local.columns.len();
+                columns.splice(0..0, local.columns.iter().cloned());
+                let mut normal = Normal::zeros(k + d);
+                // Only the new products: those of the linear columns are known.
+                for (i, a) in &columns {
+                    normal.right[*i] += dot(a, &local.residual);
+                }
+                for n in first..columns.len() {
+                    for m in 0..=n {
+                        let ((i, a), (j, b)) = (&columns[n], &columns[m]);
+                        let product = dot(a, b);
+                        normal.gram[(*i, *j)] += product;
+                        if i != j {
+                            normal.gram[(*j, *i)] += product;
+                        }
+                    }
+                }
+                normal
+            })
+            .collect();
+        let mut system = Normal::zeros(k + d);
+        for part in &parts {
+            system.merge(part);
+        }
+        for i in 0..k {
+            for j in 0..k {
+                system.gram[(i, j)] = self.normal.gram[(i, j)];
+            }
+        }
+        system
+    }
+
+    /// Whitened tangents of the shapes that bear on a recording.
+    pub(super) fn tangents(&self, assembly: &Assembly, data: Data, r: usize) -> Vec<(usize, Vec<f64>)> {
+        let (k, local) = (self.fitted.coefficients.len(), &self.recordings[r]);
+        let bearing = (0..self.fitted.unit.len()).filter(|j| assembly.bears(*j, r));
+        bearing
+            .map(|j| {
+                let mut unit = self.fitted.unit.clone();
+                let step = if unit[j] + STEP > 1.0 { -STEP } else { STEP };
+                unit[j] += step;
+                let moved = assembly.columns(r, &assembly.physical(&unit));
+                let mut change = clipped(&moved, force(&moved, &self.fitted.coefficients));
+                for (value, before) in change.iter_mut().zip(&local.force) {
+                    *value = (*value - before) / step;
+                    if !value.is_finite() {
+                        *value = 0.0;
+                    }
+                }
+                (k + j, whitened(data.noise, r, &data.rows[r], &change))
+            })
+            .collect()
+    }
+}
+
+type Whitened = (Vec<(usize, Vec<f64>)>, Vec<f64>);
+
+fn gather(
+    assembly: &Assembly,
+    data: Data,
+    raw: &[Columns],
+    masks: &[Vec<bool>],
+    coefficients: usize,
+) -> (Vec<Whitened>, Normal) {
+    let locals: Vec<(Whitened, Normal)> = raw
+        .par_iter()
+        .enumerate()
+        .map(|(r, c)| {
+            let measured = assembly.campaign().recordings()[r].force().unwrap_or_default();
+            let mut target: Vec<f64> = match &c.given {
+                Some(given) => measured.iter().zip(given).map(|(f, g)| f - g).collect(),
+                None => measured.to_vec(),
+            };
+            let mask = &masks[r];
+            if let Some((low, high)) = c.clip {
+                for (i, _) in mask.iter().enumerate().filter(|(_, masked)| **masked) {
+                    let level = if measured[i] > 0.5 * (low + high) { high } else { low };
+                    target[i] = measured[i] - level;
+                }
+            }
+            let columns: Vec<(usize, Vec<f64>)> = c
+                .columns
+                .iter()
+                .zip(&c.places)
+                .map(|(column, place)| {
+                    let series = if mask.is_empty() {
+                        whitened(data.noise, r, &data.rows[r], column)
+                    } else {
+                        let kept: Vec<f64> =
+                            column.iter().zip(mask).map(|(v, m)| if *m { 0.0 } else { *v }).collect();
+                        whitened(data.noise, r, &data.rows[r], &kept)
+                    };
+                    (*place, series)
+                })
+                .collect();
+            let target = whitened(data.noise, r, &data.rows[r], &target);
+            let mut normal = Normal::zeros(coefficients);
+            normal.add(&columns, &target);
+            ((columns, target), normal)
+        })
+        .collect();
+    let mut normal = Normal::zeros(coefficients);
+    let mut all = Vec::with_capacity(locals.len());
+    for (columns, part) in locals {
+        normal.merge(&part);
+        all.push(columns);
+    }
+    (all, normal)
+}
+
+/// Force of coefficients, N, before clipping.
+pub(super) fn force(columns: &Columns, coefficients: &[f64]) -> Vec<f64> {
+    let n = columns.columns.first().map_or(0, Vec::len).max(columns.given.as_ref().map_or(0, Vec::len));
+    let mut force = columns.given.clone().unwrap_or_else(|| vec![0.0; n]);
+    for (column, place) in columns.columns.iter().zip(&columns.places) {
+        let c = coefficients[*place];
+        for (f, value) in force.iter_mut().zip(column) {
+            *f += c * value;
+        }
+    }
+    force
+}
+
+/// The force as a clipping channel shows it.
+pub(super) fn clipped(columns: &Columns, mut force: Vec<f64>) -> Vec<f64> {
+    if let Some((low, high)) = columns.clip {
+        for f in &mut force {
+            *f = f.clamp(low, high);
+        }
+    }
+    force
+}
+
+fn censored(columns: &Columns, force: &[f64]) -> Vec<bool> {
+    columns.clip.map_or_else(Vec::new, |(low, high)| force.iter().map(|f| *f <= low || *f >= high).collect())
+}
+
+fn censored_by_measurement(assembly: &Assembly, raw: &[Columns]) -> Vec<Vec<bool>> {
+    let recordings = assembly.campaign().recordings();
+    raw.iter()
+        .zip(recordings)
+        .map(|(c, r)| {
+            c.clip.map_or_else(Vec::new, |(low, high)| {
+                let margin = 0.02 * (high - low);
+                let measured = r.force().unwrap_or_default();
+                measured.iter().map(|f| *f <= low + margin || *f >= high - margin).collect()
+            })
+        })
+        .collect()
+}

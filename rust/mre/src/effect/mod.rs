@@ -1,0 +1,157 @@
+//! The catalogue of effects that a base model may have left out: one file an effect, one line in
+//! [`CATALOGUE`].
+//!
+//! An effect has one or more laws (textbook forms of the same physics). A law acts in one place: it adds
+//! columns to the force, scales the terms of the base model by a state of the history, changes what
+//! the base model sees (motion, current), or changes what is measured. Everything else (simulation, joint
+//! fits, diagnosis) follows from that.
+
+mod catalogue;
+mod delay;
+mod maxwell;
+mod payne;
+mod scene;
+
+pub use catalogue::{CATALOGUE, named};
+pub use scene::{Scene, Sizes};
+
+use crate::parameter::{Parameter, Scale};
+
+/// What is known about a law.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct About {
+    /// Id of the effect, as in `diagnosis.json`.
+    pub effect: &'static str,
+    /// Name of the law among those of the effect.
+    pub law: &'static str,
+    /// What was left out, as the start of a sentence.
+    pub plain: &'static str,
+    /// Equation.
+    pub equation: &'static str,
+    /// Where the equation is from.
+    pub reference: &'static str,
+    /// When it cannot be told from the base model or from other effects.
+    pub limit: &'static str,
+}
+
+/// Factors on the terms of the base model, one value a sample.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Factors {
+    /// On the terms that store energy and on hysteretic terms.
+    pub stiffness: Vec<f64>,
+    /// On the viscous terms; `None`: unchanged.
+    pub damping: Option<Vec<f64>>,
+}
+
+/// Displacement in mm and velocity in mm/s that the base model sees.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Motion {
+    /// mm.
+    pub displacement: Vec<f64>,
+    /// mm/s.
+    pub velocity: Vec<f64>,
+}
+
+/// One law of an effect.
+///
+/// Every hook has a default that leaves things as they are; a law overrides one.
+pub trait Effect: Send + Sync {
+    /// Names, equation, reference.
+    fn about(&self) -> About;
+
+    /// False where recordings of these sizes cannot hold the effect at all (no current, say).
+    fn applies(&self, sizes: &Sizes) -> bool {
+        let _ = sizes;
+        true
+    }
+
+    /// Linear coefficients, one for each of [`Effect::columns`]; only `smallest` and `largest` are used of
+    /// their boxes.
+    fn coefficients(&self) -> Vec<Parameter> {
+        Vec::new()
+    }
+
+    /// Nonlinear parameters with their boxes.
+    fn shape(&self, sizes: &Sizes) -> Vec<Parameter>;
+
+    /// Values of the nonlinear parameters from which a fit starts: enough of them that a real effect is
+    /// nearly as visible at one of them as at its best.
+    fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>>;
+
+    /// Columns added to the force, each times its coefficient.
+    fn columns(&self, scene: &Scene, shape: &[f64]) -> Vec<Vec<f64>> {
+        let _ = (scene, shape);
+        Vec::new()
+    }
+
+    /// True where the columns belong to the measurement and not to the device, and have their own
+    /// coefficients in every recording.
+    fn of_the_measurement(&self) -> bool {
+        false
+    }
+
+    /// Factors on the terms of the base model.
+    fn factors(&self, scene: &Scene, shape: &[f64]) -> Option<Factors> {
+        let _ = (scene, shape);
+        None
+    }
+
+    /// Motion that the base model sees.
+    fn motion(&self, scene: &Scene, shape: &[f64]) -> Option<Motion> {
+        let _ = (scene, shape);
+        None
+    }
+
+    /// Current that the base model sees, A.
+    fn current(&self, scene: &Scene, shape: &[f64]) -> Option<Vec<f64>> {
+        let _ = (scene, shape);
+        None
+    }
+
+    /// A linear channel through which the force of the device is measured.
+    fn through(&self, scene: &Scene, shape: &[f64], force: &[f64]) -> Option<Vec<f64>> {
+        let _ = (scene, shape, force);
+        None
+    }
+
+    /// Lowest and highest force that is measured, N.
+    fn clip(&self, shape: &[f64]) -> Option<(f64, f64)> {
+        let _ = shape;
+        None
+    }
+}
+
+/// A coefficient that may not be negative.
+pub(crate) fn positive(name: &str, unit: &'static str) -> Parameter {
+    Parameter { smallest: 0.0, ..signed(name, unit) }
+}
+
+/// A coefficient of either sign.
+pub(crate) fn signed(name: &str, unit: &'static str) -> Parameter {
+    Parameter {
+        name: name.into(),
+        unit,
+        smallest: f64::NEG_INFINITY,
+        largest: f64::INFINITY,
+        lower: f64::NEG_INFINITY,
+        upper: f64::INFINITY,
+        scale: Scale::Linear,
+    }
+}
+
+/// A shape within a box, spread evenly.
+pub(crate) fn within(name: &str, unit: &'static str, lower: f64, upper: f64) -> Parameter {
+    let (smallest, largest) = (f64::NEG_INFINITY, f64::INFINITY);
+    Parameter { name: name.into(), unit, smallest, largest, lower, upper, scale: Scale::Linear }
+}
+
+/// A positive shape of unknown order of magnitude within a box.
+pub(crate) fn order_within(name: &str, unit: &'static str, lower: f64, upper: f64) -> Parameter {
+    Parameter { smallest: 0.0, scale: Scale::Log, ..within(name, unit, lower, upper) }
+}
+
+/// `count` values from `low` to `high`, evenly in the logarithm.
+pub(crate) fn orders(low: f64, high: f64, count: usize) -> Vec<f64> {
+    let last = count.saturating_sub(1).max(1) as f64;
+    (0..count).map(|i| low * (high / low).powf(i as f64 / last)).collect()
+}

@@ -1,0 +1,128 @@
+//! What an effect sees of a recording, and the sizes from which its default boxes are made.
+
+use crate::recording::{Condition, Recording};
+
+/// One recording as effects see it. All series have one value a sample.
+#[derive(Debug, Clone, Copy)]
+pub struct Scene<'a> {
+    /// Time, s.
+    pub time: &'a [f64],
+    /// Displacement, mm.
+    pub displacement: &'a [f64],
+    /// Velocity, mm/s.
+    pub velocity: &'a [f64],
+    /// Acceleration, mm/s^2.
+    pub acceleration: &'a [f64],
+    /// Coil current, A; `None` where it is not known.
+    pub current: Option<&'a [f64]>,
+    /// Force of the base model as fitted without effects, N.
+    pub force: &'a [f64],
+    /// Time of all recordings before this one in the campaign, s.
+    pub before: f64,
+    /// Sizes over the campaign.
+    pub sizes: &'a Sizes,
+}
+
+impl Scene<'_> {
+    /// Number of samples.
+    pub fn len(&self) -> usize {
+        self.time.len()
+    }
+
+    /// Never true of a recording.
+    pub fn is_empty(&self) -> bool {
+        self.time.is_empty()
+    }
+
+    /// Mean time step, s.
+    pub fn step(&self) -> f64 {
+        (self.time[self.len() - 1] - self.time[0]) / (self.len() - 1) as f64
+    }
+
+    /// Duration, s.
+    pub fn duration(&self) -> f64 {
+        self.time[self.len() - 1] - self.time[0]
+    }
+
+    /// A state that starts at `start` and is carried from sample to sample: `next(state, i)` gives it at
+    /// sample `i` from that at sample `i - 1`.
+    pub fn trace(&self, start: f64, mut next: impl FnMut(f64, usize) -> f64) -> Vec<f64> {
+        let mut state = start;
+        (0..self.len())
+            .map(|i| {
+                if i > 0 {
+                    state = next(state, i);
+                }
+                state
+            })
+            .collect()
+    }
+}
+
+/// Sizes over a campaign.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sizes {
+    /// Largest absolute displacement, mm.
+    pub displacement: f64,
+    /// Largest speed, mm/s.
+    pub velocity: f64,
+    /// Largest absolute force, N.
+    pub force: f64,
+    /// Shortest time step, s.
+    pub step: f64,
+    /// Duration of the longest recording, s.
+    pub duration: f64,
+    /// Duration of all recordings together, s.
+    pub total: f64,
+    /// Longest travelled path in a recording, mm.
+    pub path: f64,
+    /// Most energy dissipated in a recording: the largest integral of `|F v|`, N mm.
+    pub energy: f64,
+    /// Lowest and highest current, A, where it is known.
+    pub current: Option<(f64, f64)>,
+    /// True where the current changes inside a recording.
+    pub current_varies: bool,
+}
+
+impl Sizes {
+    /// Sizes of recordings with force.
+    pub fn of<'a>(recordings: impl Iterator<Item = &'a Recording>) -> Self {
+        let mut sizes = Self {
+            displacement: 0.0,
+            velocity: 0.0,
+            force: 0.0,
+            step: f64::INFINITY,
+            duration: 0.0,
+            total: 0.0,
+            path: 0.0,
+            energy: 0.0,
+            current: None,
+            current_varies: false,
+        };
+        let farthest = |values: &[f64]| values.iter().fold(0.0_f64, |far, v| far.max(v.abs()));
+        for r in recordings {
+            let (time, x, v) = (r.time(), r.displacement(), r.velocity());
+            let force = r.force().unwrap_or_default();
+            let duration = time[time.len() - 1] - time[0];
+            sizes.displacement = sizes.displacement.max(farthest(x));
+            sizes.velocity = sizes.velocity.max(farthest(v));
+            sizes.force = sizes.force.max(farthest(force));
+            sizes.step = sizes.step.min(duration / (time.len() - 1) as f64);
+            sizes.duration = sizes.duration.max(duration);
+            sizes.total += duration;
+            let path: f64 = x.windows(2).map(|p| (p[1] - p[0]).abs()).sum();
+            let energy: f64 = x.windows(2).zip(force).map(|(p, f)| (f * (p[1] - p[0])).abs()).sum();
+            sizes.path = sizes.path.max(path);
+            sizes.energy = sizes.energy.max(energy);
+            let (low, high) = match r.current() {
+                Condition::Missing => continue,
+                Condition::Constant(i) => (*i, *i),
+                Condition::Series(i) => crate::recording::extent(i),
+            };
+            let known = sizes.current.get_or_insert((low, high));
+            *known = (known.0.min(low), known.1.max(high));
+            sizes.current_varies |= r.current().varies();
+        }
+        sizes
+    }
+}
