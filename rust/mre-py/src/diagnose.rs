@@ -1,80 +1,158 @@
-//! The diagnosis.
+//! The diagnosis: recordings in, JSON and force histories out.
 
 use mre::assembly::{Base, Campaign};
-use mre::diagnose;
+use mre::diagnose::{self, Diagnosis, Estimate, Place, Proof};
+use mre::error::Result;
+use numpy::PyArray1;
 use pyo3::prelude::*;
-use serde_json::json;
+use serde_json::{Value, json};
 
 use crate::error::to_python;
 use crate::recording::Recording;
 use crate::run::in_pool;
 
-/// Diagnose; the result as JSON.
+type Forces<'py> = Vec<Bound<'py, PyArray1<f64>>>;
+
+/// Diagnose recordings: `(JSON, base force and final force of every recording)`.
+///
+/// `groups` are the places of recordings that share parameters of the model; where `given` has a force for
+/// every recording, that force is the base instead of the model.
 #[pyfunction]
-#[pyo3(signature = (recordings, model, groups, *, false_alarm, seed, threads=None))]
-#[allow(clippy::needless_pass_by_value)]
-pub(crate) fn diagnose_raw(
-    py: Python<'_>,
+#[pyo3(signature = (recordings, model, groups, *, false_alarm, seed, given=None, threads=None))]
+#[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)]
+pub(crate) fn diagnose_recordings<'py>(
+    py: Python<'py>,
     recordings: Vec<Recording>,
     model: &str,
     groups: Vec<Vec<usize>>,
     false_alarm: f64,
     seed: u64,
+    given: Option<Vec<Vec<f64>>>,
     threads: Option<i64>,
-) -> PyResult<String> {
+) -> PyResult<(String, Forces<'py>, Forces<'py>)> {
     let recordings: Vec<_> = recordings.into_iter().map(|r| r.inner).collect();
-    let (result, _) = in_pool(py, threads, None, true, |_| -> mre::error::Result<String> {
+    let (result, _) = in_pool(py, threads, None, true, |_| -> Result<(String, Histories, Histories)> {
         let campaign = Campaign::new(recordings.clone())?;
-        let base = Base::fitted(&recordings, model, &groups)?;
-        let rows: Vec<diagnose::Rows> = recordings.iter().map(|r| vec![r.scored()]).collect();
-        let t0 = std::time::Instant::now();
-        let begun = diagnose::begin(&campaign, &base, &rows);
-        let t1 = t0.elapsed().as_secs_f64();
-        let named =
-            diagnose::name(&begun.assembly, &rows, (&begun.noise, &begun.fitted), false_alarm, seed);
-        let t2 = t0.elapsed().as_secs_f64();
-        let scores: Vec<_> = named
-            .scores
-            .iter()
-            .map(|s| {
-                let about = s.effect.about();
-                json!([about.effect, about.law, s.gain, s.p_value, s.visible, s.freedom, s.start])
-            })
-            .collect();
-        let effects: Vec<_> =
-            named.assembly.effects().iter().map(|e| json!([e.about().effect, e.about().law])).collect();
-        let shapes: Vec<_> = named
-            .assembly
-            .shapes()
-            .iter()
-            .zip(named.assembly.physical(&named.fitted.unit))
-            .map(|(p, v)| json!([p.name, v]))
-            .collect();
-        let coefficients: Vec<_> = named
-            .assembly
-            .coefficients()
-            .iter()
-            .zip(&named.fitted.coefficients)
-            .map(|(p, v)| json!([p.name, v]))
-            .collect();
-        let steps: Vec<_> = named
-            .steps
-            .iter()
-            .map(|step| {
-                step.iter()
-                    .map(|c| {
-                        let about = c.assembly.effects().last().map(|e| e.about());
-                        json!([about.map(|a| a.effect), about.map(|a| a.law), c.fitted.left, c.criterion()])
-                    })
-                    .collect::<Vec<_>>()
-            })
-            .collect();
-        Ok(json!({
-            "effects": effects, "scores": scores, "shapes": shapes, "coefficients": coefficients,
-            "base_left": begun.fitted.left, "left": named.fitted.left, "rows": named.fitted.rows,
-            "steps": steps, "seconds": [t1, t2],
-        })
-        .to_string())
+        let base = match given {
+            Some(force) => Base::Given(force),
+            None => Base::fitted(&recordings, model, &groups)?,
+        };
+        let found = diagnose::run(&campaign, &base, false_alarm, seed);
+        Ok((describe(&found, &base).to_string(), found.base_force, found.final_force))
     })?;
-    result.map_err(to_python)
+    let (text, base, last) = result.map_err(to_python)?;
+    let arrays =
+        |forces: Histories| forces.into_iter().map(|force| PyArray1::from_vec(py, force)).collect();
+    Ok((text, arrays(base), arrays(last)))
+}
+
+type Histories = Vec<Vec<f64>>;
+
+fn describe(found: &Diagnosis, base: &Base) -> Value {
+    let evidence = &found.evidence;
+    json!({
+        "verdict": found.verdict.id(),
+        "effects": found.effects.iter().map(|e| effect(found, e)).collect::<Vec<_>>(),
+        "where": found.places.iter().map(|f| place(&f.place, f.strength)).collect::<Vec<_>>(),
+        "base_levels": levels(base, &found.base_estimates),
+        "final_levels": levels(base, &found.estimates),
+        "before": proof(&found.before),
+        "after": proof(&found.after),
+        "noise_rms": found.noise_rms,
+        "p_base": evidence.p_base,
+        "p_rest": evidence.p_rest,
+        "rest_share": evidence.share,
+        "lack_of_fit_N": evidence.lack_of_fit,
+        "approximate": evidence.approximate(),
+        "candidates": diagnose::beside(&found.named.scores),
+        "sizes": sizes(found),
+    })
+}
+
+fn proof(proof: &Proof) -> Value {
+    json!({
+        "train_rms": proof.train_rms,
+        "held_out_rms": proof.held_out_rms,
+        "by_recording": proof.by_recording,
+    })
+}
+
+fn estimate(e: &Estimate) -> Value {
+    let finite = |v: f64| if v.is_finite() { json!(v) } else { Value::Null };
+    json!({"name": e.name, "unit": e.unit, "value": e.value, "low": finite(e.low), "high": finite(e.high)})
+}
+
+fn effect(found: &Diagnosis, named: &diagnose::Effect) -> Value {
+    let assembly = &found.named.assembly;
+    let sizes = assembly.campaign().sizes();
+    let recordings = assembly.campaign().recordings().len();
+    let (mut coefficient, mut shape) = (assembly.base_coefficients(), assembly.base_shapes());
+    let copies = |e: &&'static dyn mre::effect::Effect| if e.of_the_measurement() { recordings } else { 1 };
+    for before in &assembly.effects()[..named.place] {
+        coefficient += copies(before) * before.coefficients().len();
+        shape += before.shape(sizes).len();
+    }
+    let this = &assembly.effects()[named.place];
+    let own = copies(this) * this.coefficients().len();
+    let about = this.about();
+    let coefficients: Vec<Value> =
+        found.estimates.coefficients[coefficient..coefficient + own].iter().map(estimate).collect();
+    let shapes: Vec<Value> =
+        found.estimates.shapes[shape..shape + this.shape(sizes).len()].iter().map(estimate).collect();
+    json!({
+        "id": about.effect, "law": about.law, "plain": about.plain, "equation": about.equation,
+        "reference": about.reference, "limit": about.limit, "of_the_measurement": this.of_the_measurement(),
+        "coefficients": coefficients, "shapes": shapes, "p_value": named.p_value,
+        "held_out_rms_before": named.held_out_before, "held_out_rms_after": named.held_out_after,
+    })
+}
+
+fn place(place: &Place, strength: f64) -> Value {
+    match place {
+        Place::Time { recording, from, to } => json!({
+            "kind": "time", "recording": recording, "from": from, "to": to, "strength": strength,
+        }),
+        Place::State { x, v } => json!({"kind": "state", "x_mm": x, "v_mm_s": v, "strength": strength}),
+        Place::Harmonic { recording, harmonic, drive, in_phase } => json!({
+            "kind": "harmonic", "recording": recording, "harmonic": harmonic, "drive_hz": drive,
+            "in_phase": in_phase, "strength": strength,
+        }),
+        Place::Recording { recording, damping } => json!({
+            "kind": "recording", "recording": recording, "damping": damping, "strength": strength,
+        }),
+    }
+}
+
+/// Parameters of the model for every group, in the model's order.
+fn levels(base: &Base, estimates: &diagnose::Estimates) -> Vec<Value> {
+    let (mut coefficient, mut shape) = (0, 0);
+    base.groups()
+        .iter()
+        .map(|group| {
+            let mut values = vec![0.0; group.problem.parameters().len()];
+            for place in &group.coefficients {
+                values[*place] = estimates.coefficients[coefficient].value;
+                coefficient += 1;
+            }
+            for place in &group.shapes {
+                values[*place] = estimates.shapes[shape].value;
+                shape += 1;
+            }
+            let law = group.problem.law();
+            let levels = law.levels(&values, None);
+            json!({
+                "members": group.members,
+                "levels": levels.iter().map(|l| json!({"current": l.current, "values": l.values})).collect::<Vec<_>>(),
+            })
+        })
+        .collect()
+}
+
+fn sizes(found: &Diagnosis) -> Value {
+    let s = found.named.assembly.campaign().sizes();
+    json!({
+        "displacement": s.displacement, "velocity": s.velocity, "force": s.force, "step": s.step,
+        "duration": s.duration, "total": s.total, "path": s.path, "energy": s.energy,
+        "current": s.current, "current_varies": s.current_varies,
+    })
 }

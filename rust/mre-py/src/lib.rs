@@ -20,7 +20,7 @@ mod _core {
     #[pymodule_export]
     use crate::device::{check, classical, models, parameters, simulate};
     #[pymodule_export]
-    use crate::diagnose::diagnose_raw;
+    use crate::diagnose::diagnose_recordings;
     #[pymodule_export]
     use crate::error::MreError;
     #[pymodule_export]

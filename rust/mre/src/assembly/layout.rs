@@ -32,6 +32,33 @@ pub struct Columns {
     pub clip: Option<(f64, f64)>,
 }
 
+impl Columns {
+    /// Their sum with coefficients, N, before clipping.
+    pub fn force(&self, coefficients: &[f64]) -> Vec<f64> {
+        let length = |columns: Option<&Vec<f64>>| columns.map_or(0, Vec::len);
+        let n = length(self.columns.first()).max(length(self.given.as_ref()));
+        let mut force = self.given.clone().unwrap_or_else(|| vec![0.0; n]);
+        for (column, place) in self.columns.iter().zip(&self.places) {
+            let c = coefficients[*place];
+            for (f, value) in force.iter_mut().zip(column) {
+                *f += c * value;
+            }
+        }
+        force
+    }
+
+    /// The same as a clipping channel shows it.
+    pub fn measured(&self, coefficients: &[f64]) -> Vec<f64> {
+        let mut force = self.force(coefficients);
+        if let Some((low, high)) = self.clip {
+            for f in &mut force {
+                *f = f.clamp(low, high);
+            }
+        }
+        force
+    }
+}
+
 impl<'a> Assembly<'a> {
     /// An assembly; `reference` is the force of the base model alone.
     pub fn new(
@@ -58,6 +85,11 @@ impl<'a> Assembly<'a> {
     /// The same with another force of the base model alone.
     pub fn referring_to(&self, reference: Vec<Vec<f64>>) -> Self {
         Self { reference: Arc::new(reference), ..self.clone() }
+    }
+
+    /// What effects see of a recording.
+    pub fn scene(&self, r: usize) -> Scene<'_> {
+        self.campaign.scene(r, &self.reference[r])
     }
 
     /// The campaign.
@@ -95,6 +127,17 @@ impl<'a> Assembly<'a> {
         self.base.groups().iter().flat_map(of_group).chain(self.effects.iter().flat_map(of_effect)).collect()
     }
 
+    /// For every coefficient, true where it belongs to the device and not to the measurement.
+    pub fn device_coefficients(&self) -> Vec<bool> {
+        let mut found = vec![true; self.base_coefficients()];
+        for effect in &self.effects {
+            let own = effect.of_the_measurement();
+            let copies = if own { self.campaign.recordings().len() } else { 1 };
+            found.extend(vec![!own; copies * effect.coefficients().len()]);
+        }
+        found
+    }
+
     /// Number of linear coefficients of the base.
     pub fn base_coefficients(&self) -> usize {
         self.base.groups().iter().map(|g| g.coefficients.len()).sum()
@@ -130,6 +173,14 @@ impl<'a> Assembly<'a> {
         true
     }
 
+    /// Force in N of every recording.
+    pub fn force(&self, unit: &[f64], coefficients: &[f64]) -> Vec<Vec<f64>> {
+        let shapes = self.physical(unit);
+        (0..self.campaign.recordings().len())
+            .map(|r| self.columns(r, &shapes).force(coefficients))
+            .collect()
+    }
+
     /// Columns of a recording for shapes in their units.
     pub fn columns(&self, r: usize, shapes: &[f64]) -> Columns {
         let mut shape_of = Vec::new();
@@ -139,7 +190,7 @@ impl<'a> Assembly<'a> {
             shape_of.push(&shapes[next..next + count]);
             next += count;
         }
-        let scene = self.campaign.scene(r, &self.reference[r]);
+        let scene = self.scene(r);
         let mut found = Columns::default();
         let parts = self.base_columns(r, shapes, &scene, &shape_of, &mut found);
         for (effect, shape) in self.effects.iter().zip(&shape_of) {

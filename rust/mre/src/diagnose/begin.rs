@@ -5,7 +5,7 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use super::least_squares::{Data, Fitted, Point, refine, refine_at_most};
-use super::name::noise_left;
+use super::candidates::noise_left;
 use super::noise::Noise;
 use super::normal::Rows;
 use crate::assembly::{Assembly, Base, Campaign};

@@ -150,7 +150,7 @@ impl Point {
             let upper: Vec<f64> = coefficients.iter().map(|p| p.largest).collect();
             values = bounded::minimise(&normal.gram, &normal.right, &lower, &upper);
             if pass + 1 < passes {
-                masks = raw.iter().map(|c| censored(c, &force(c, &values))).collect();
+                masks = raw.iter().map(|c| censored(c, &c.force(&values))).collect();
             }
         }
         let recordings: Vec<Local> = raw
@@ -163,7 +163,7 @@ impl Point {
                         *e -= values[*place] * value;
                     }
                 }
-                Local { columns, force: clipped(c, force(c, &values)), residual }
+                Local { columns, force: c.measured(&values), residual }
             })
             .collect();
         let left: f64 = recordings.iter().map(|l| dot(&l.residual, &l.residual)).sum();
@@ -173,7 +173,7 @@ impl Point {
     }
 
     /// Normal equations of coefficients and shapes together, for the residual.
-    fn with_tangents(&self, assembly: &Assembly, data: Data) -> Normal {
+    pub(super) fn with_tangents(&self, assembly: &Assembly, data: Data) -> Normal {
         let (k, d) = (self.fitted.coefficients.len(), self.fitted.unit.len());
         let parts: Vec<Normal> = (0..self.recordings.len())
             .into_par_iter()
@@ -222,7 +222,7 @@ impl Point {
                 let step = if unit[j] + STEP > 1.0 { -STEP } else { STEP };
                 unit[j] += step;
                 let moved = assembly.columns(r, &assembly.physical(&unit));
-                let mut change = clipped(&moved, force(&moved, &self.fitted.coefficients));
+                let mut change = moved.measured(&self.fitted.coefficients);
                 for (value, before) in change.iter_mut().zip(&local.force) {
                     *value = (*value - before) / step;
                     if !value.is_finite() {
@@ -288,29 +288,6 @@ fn gather(
         all.push(columns);
     }
     (all, normal)
-}
-
-/// Force of coefficients, N, before clipping.
-pub(super) fn force(columns: &Columns, coefficients: &[f64]) -> Vec<f64> {
-    let n = columns.columns.first().map_or(0, Vec::len).max(columns.given.as_ref().map_or(0, Vec::len));
-    let mut force = columns.given.clone().unwrap_or_else(|| vec![0.0; n]);
-    for (column, place) in columns.columns.iter().zip(&columns.places) {
-        let c = coefficients[*place];
-        for (f, value) in force.iter_mut().zip(column) {
-            *f += c * value;
-        }
-    }
-    force
-}
-
-/// The force as a clipping channel shows it.
-pub(super) fn clipped(columns: &Columns, mut force: Vec<f64>) -> Vec<f64> {
-    if let Some((low, high)) = columns.clip {
-        for f in &mut force {
-            *f = f.clamp(low, high);
-        }
-    }
-    force
 }
 
 fn censored(columns: &Columns, force: &[f64]) -> Vec<bool> {

@@ -5,16 +5,29 @@
 //! to hide an effect.
 
 mod begin;
+mod candidates;
 mod distribution;
+mod features;
+mod intervals;
 mod least_squares;
-mod name;
+mod locate;
+mod missing;
 mod noise;
 mod normal;
+mod prove;
+mod run;
 mod screen;
+mod search;
+mod verdict;
 
-pub use begin::{Begun, begin};
-pub use least_squares::{Data, Fitted, refine};
-pub use name::{Candidate, Named, name};
+pub use candidates::Candidate;
+pub use intervals::{Estimate, Estimates};
+pub use least_squares::Fitted;
+pub use locate::{Finding, Place};
 pub use noise::Noise;
 pub use normal::Rows;
+pub use prove::Proof;
+pub use run::{Diagnosis, Effect, beside, run};
 pub use screen::Score;
+pub use search::Named;
+pub use verdict::{Evidence, Verdict};

@@ -11,10 +11,10 @@ use rand_core::SeedableRng;
 use rayon::prelude::*;
 
 use super::distribution::{chi_square_tail, normal};
-use super::least_squares::{Data, Point, clipped, force};
+use super::least_squares::{Data, Point};
 use super::normal::whitened;
 use crate::assembly::Assembly;
-use crate::effect::Effect;
+use crate::effect::{Effect, Scene};
 use crate::fit::bounded;
 use crate::kernel::filter::dot;
 
@@ -88,12 +88,22 @@ impl<'a> Null<'a> {
         Some(Self { assembly, data, point, tangents, factor, scale, right })
     }
 
+    /// The model whose tangents are projected off.
+    pub(super) fn assembly(&self) -> &Assembly<'a> {
+        self.assembly
+    }
+
+    /// What effects see of a recording.
+    pub(super) fn scene(&self, r: usize) -> Scene<'_> {
+        self.assembly.scene(r)
+    }
+
     /// Gram matrix and right side of columns, projected off the tangents, and the squares before that.
     /// `columns(r)` gives those of a recording with their places among `count`.
     pub(super) fn project(
         &self,
         count: usize,
-        columns: impl Fn(usize) -> Vec<(usize, Vec<f64>)>,
+        mut columns: impl FnMut(usize) -> Vec<(usize, Vec<f64>)>,
     ) -> (DMatrix<f64>, DVector<f64>, Vec<f64>) {
         let tangent_count = self.scale.len();
         let mut gram = DMatrix::<f64>::zeros(count, count);
@@ -197,7 +207,7 @@ impl<'a> Null<'a> {
             let all: Vec<f64> = shapes.iter().chain(start).copied().collect();
             let columns = joint.columns(r, &all);
             if effect.coefficients().is_empty() {
-                let mut change = clipped(&columns, force(&columns, &self.point.fitted.coefficients));
+                let mut change = columns.measured(&self.point.fitted.coefficients);
                 for (c, f) in change.iter_mut().zip(&self.point.recordings[r].force) {
                     *c -= f;
                 }

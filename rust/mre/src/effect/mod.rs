@@ -90,6 +90,11 @@ pub trait Effect: Send + Sync {
         false
     }
 
+    /// True where the effect happens at one moment of one recording.
+    fn in_one_recording(&self) -> bool {
+        false
+    }
+
     /// Factors on the terms of the base model.
     fn factors(&self, scene: &Scene, shape: &[f64]) -> Option<Factors> {
         let _ = (scene, shape);

@@ -1,39 +1,18 @@
-//! Naming: which effects, added to the base and refitted together with it, explain the recordings.
-//!
-//! Forward: every law of the catalogue is scored, the strongest are refitted jointly, and the one with the
-//! lowest whitened BIC enters if its effect's p-value passes Holm's threshold (Holm 1979). Then the noise is
-//! estimated anew from what is left. Backward: an effect that the others make unnecessary leaves.
+//! Candidates: every law of the catalogue is scored beside a fitted model, and the strongest are refitted
+//! together with it.
 
 use rayon::prelude::*;
 
 use super::least_squares::{Data, Fitted, Point, refine};
 use super::noise::Noise;
-use super::normal::Rows;
 use super::screen::{Null, Score};
 use crate::assembly::Assembly;
 use crate::effect::{CATALOGUE, Effect};
 
-/// Most effects that are named.
-const MOST: usize = 4;
 /// Candidates that are refitted jointly at each step.
 const REFITTED: usize = 12;
 /// A candidate whose score is below this share of the best is not refitted.
 const PROMISING: f64 = 0.15;
-
-/// A model with its fit and the noise that it leaves.
-#[derive(Clone)]
-pub struct Named<'a> {
-    /// The base and the effects named.
-    pub assembly: Assembly<'a>,
-    /// Its fit.
-    pub fitted: Fitted,
-    /// Noise of the recordings.
-    pub noise: Noise,
-    /// What the last scores found, for each law.
-    pub scores: Vec<Score>,
-    /// Joint fits of each step, best first.
-    pub steps: Vec<Vec<Candidate<'a>>>,
-}
 
 /// A law with its joint fit.
 #[derive(Clone)]
@@ -81,7 +60,7 @@ pub(super) fn noise_left(assembly: &Assembly, data: Data, fitted: &Fitted) -> No
 pub(super) fn scores(assembly: &Assembly, data: Data, unit: &[f64], seed: u64) -> Vec<Score> {
     let Some(null) = Null::new(assembly, data, unit) else { return Vec::new() };
     let named = |e: &&'static dyn Effect| {
-        assembly.effects().iter().any(|known| known.about() == e.about())
+        assembly.effects().iter().any(|known| known.about().effect == e.about().effect)
     };
     let laws: Vec<&'static dyn Effect> = CATALOGUE.iter().copied().filter(|e| !named(e)).collect();
     laws.into_par_iter().enumerate().filter_map(|(i, e)| null.score(e, seed ^ i as u64)).collect()
@@ -142,40 +121,3 @@ pub(super) fn candidates<'a>(
     found
 }
 
-/// Name the effects that the recordings show at a false-alarm rate.
-pub fn name<'a>(
-    base: &Assembly<'a>,
-    rows: &[Rows],
-    first: (&Noise, &Fitted),
-    false_alarm: f64,
-    seed: u64,
-) -> Named<'a> {
-    let mut noise = first.0.clone();
-    let mut assembly = base.clone();
-    let mut fitted = first.1.clone();
-    let (mut found, mut steps) = (Vec::new(), Vec::new());
-    for step in 0..=MOST {
-        // Twice: with the noise as it was, and with the noise that the best candidate leaves.
-        let mut best = None;
-        for _ in 0..2 {
-            let data = Data { noise: &noise, rows };
-            fitted = refine(&assembly, data, &fitted.unit);
-            found = scores(&assembly, data, &fitted.unit, seed);
-            let tried = candidates(&assembly, data, &fitted.unit, &found);
-            best = tried.first().cloned();
-            steps.truncate(step);
-            steps.push(tried);
-            if let Some(best) = &best {
-                noise = noise_left(&best.assembly, data, &best.fitted);
-            }
-        }
-        let data = Data { noise: &noise, rows };
-        fitted = refine(&assembly, data, &fitted.unit);
-        let effects = by_effect(&found);
-        let significant = effects.iter().any(|(_, p)| p * effects.len() as f64 <= false_alarm);
-        let Some(best) = best.filter(|_| significant && step < MOST) else { break };
-        let next = refine(&best.assembly, data, &best.fitted.unit);
-        (assembly, fitted) = (best.assembly, next);
-    }
-    Named { assembly, fitted, noise, scores: found, steps }
-}

@@ -1,0 +1,87 @@
+//! Intervals of fitted parameters, from the curvature of the whitened sum of squares.
+
+use nalgebra::DMatrix;
+
+use super::least_squares::{Data, Point};
+use crate::assembly::Assembly;
+use crate::parameter::Scale;
+
+/// 95 % of a normal variable lie within so many standard deviations.
+const WIDTH: f64 = 1.959_963_984_540_054;
+
+/// A fitted parameter with its 95 % interval.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Estimate {
+    /// Symbol.
+    pub name: String,
+    /// Unit.
+    pub unit: &'static str,
+    /// Value.
+    pub value: f64,
+    /// Lower end of the interval.
+    pub low: f64,
+    /// Upper end; infinite ends mean that the recordings do not determine the parameter.
+    pub high: f64,
+}
+
+/// Coefficients and shapes with their intervals.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Estimates {
+    /// In the order of [`Assembly::coefficients`].
+    pub coefficients: Vec<Estimate>,
+    /// In the order of [`Assembly::shapes`].
+    pub shapes: Vec<Estimate>,
+}
+
+/// Intervals at a fitted point of the unit box.
+pub(super) fn estimates(assembly: &Assembly, data: Data, unit: &[f64]) -> Estimates {
+    let point = Point::at(assembly, data, unit.to_vec());
+    let system = point.with_tangents(assembly, data);
+    let count = system.right.len();
+    let scale: Vec<f64> = (0..count)
+        .map(|i| if system.gram[(i, i)] > 0.0 { system.gram[(i, i)].sqrt() } else { 0.0 })
+        .collect();
+    let matrix = DMatrix::from_fn(count, count, |i, j| {
+        let size = scale[i] * scale[j];
+        let own = if i == j { 1e-12 } else { 0.0 };
+        if size > 0.0 { system.gram[(i, j)] / size + own } else { f64::from(u8::from(i == j)) }
+    });
+    let inverse = matrix.try_inverse();
+    let deviation = |i: usize| match &inverse {
+        Some(inverse) if scale[i] > 0.0 => inverse[(i, i)].max(0.0).sqrt() / scale[i],
+        _ => f64::INFINITY,
+    };
+    let coefficients: Vec<Estimate> = assembly
+        .coefficients()
+        .into_iter()
+        .zip(&point.fitted.coefficients)
+        .enumerate()
+        .map(|(i, (p, value))| {
+            let half = WIDTH * deviation(i);
+            let (low, high) = ((value - half).max(p.smallest), (value + half).min(p.largest));
+            Estimate { name: p.name, unit: p.unit, value: *value, low, high }
+        })
+        .collect();
+    let first = coefficients.len();
+    let shapes = assembly
+        .shapes()
+        .iter()
+        .zip(assembly.physical(unit))
+        .enumerate()
+        .map(|(j, (p, value))| {
+            let half = WIDTH * deviation(first + j);
+            let (low, high) = match p.scale {
+                Scale::Linear => {
+                    let half = half * (p.upper - p.lower);
+                    (value - half, value + half)
+                }
+                Scale::Log => {
+                    let factor = (half * (p.upper / p.lower).ln()).exp();
+                    (value / factor, value * factor)
+                }
+            };
+            Estimate { name: p.name.clone(), unit: p.unit, value, low: low.max(p.smallest), high }
+        })
+        .collect();
+    Estimates { coefficients, shapes }
+}

@@ -1,0 +1,232 @@
+//! Where the mismatch is: local columns (a moment, a stretch of the displacement, a recording, a harmonic of
+//! the drive) scored beside the base model; the strongest first.
+
+use rayon::prelude::*;
+
+use super::distribution::chi_square_tail;
+use super::screen::Null;
+use crate::effect::Scene;
+
+/// Moments of each recording at which the stiffness may change.
+const MOMENTS: usize = 40;
+/// Stretches of the displacement, each a hat that spans two of them.
+const STRETCHES: usize = 20;
+/// Highest harmonic of the drive.
+const HARMONICS: usize = 7;
+/// Entries at most.
+const MOST: usize = 12;
+/// Share of a column's square that the base model has to leave.
+const SMALLEST_SHARE: f64 = 1e-6;
+
+/// What a place is a place in.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Place {
+    /// Around a moment of a recording, s.
+    Time {
+        /// Place of the recording in the campaign.
+        recording: usize,
+        /// s.
+        from: f64,
+        /// s.
+        to: f64,
+    },
+    /// In a stretch of the displacement.
+    State {
+        /// mm.
+        x: [f64; 2],
+        /// mm/s.
+        v: [f64; 2],
+    },
+    /// At a harmonic of the drive of a recording.
+    Harmonic {
+        /// Place of the recording in the campaign.
+        recording: usize,
+        /// Multiple of the drive's frequency.
+        harmonic: usize,
+        /// Frequency of the drive, Hz.
+        drive: f64,
+        /// Share of the amplitude that is in phase with the displacement, -1 to 1.
+        in_phase: f64,
+    },
+    /// In one recording against the others.
+    Recording {
+        /// Place of the recording in the campaign.
+        recording: usize,
+        /// True for damping, false for stiffness.
+        damping: bool,
+    },
+}
+
+/// A place with its strength.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Finding {
+    /// Where.
+    pub place: Place,
+    /// Square root of the squared standard deviations that the place explains.
+    pub strength: f64,
+}
+
+/// Places whose strength no noise would reach at a false-alarm rate over all of them, strongest first.
+pub(super) fn locate(null: &Null, false_alarm: f64) -> Vec<Finding> {
+    let recordings = null.assembly().campaign().recordings().len();
+    let mut found: Vec<Vec<Finding>> =
+        (0..recordings).into_par_iter().map(|r| in_recording(null, r)).collect();
+    found.push(in_state(null));
+    let all: Vec<Finding> = found.into_iter().flatten().collect();
+    let tests = all.len() as f64;
+    let mut significant: Vec<Finding> = all
+        .into_iter()
+        .filter(|f| chi_square_tail(f.strength * f.strength, 2) * tests <= false_alarm)
+        .collect();
+    significant.sort_by(|a, b| b.strength.total_cmp(&a.strength));
+    let mut kept: Vec<Finding> = Vec::new();
+    for finding in significant {
+        if kept.len() < MOST && !kept.iter().any(|k| overlap(&k.place, &finding.place)) {
+            kept.push(finding);
+        }
+    }
+    kept
+}
+
+fn overlap(a: &Place, b: &Place) -> bool {
+    match (a, b) {
+        (
+            Place::Time { recording: r, from, to },
+            Place::Time { recording: s, from: start, to: end },
+        ) => r == s && from < end && start < to,
+        (Place::State { x, v }, Place::State { x: y, v: w }) => {
+            x[0] < y[1] && y[0] < x[1] && v[0] < w[1] && w[0] < v[1]
+        }
+        _ => a == b,
+    }
+}
+
+/// Strength of single columns on one recording.
+fn strengths(null: &Null, r: usize, columns: Vec<Vec<f64>>) -> Vec<f64> {
+    let count = columns.len();
+    let mut columns = Some(columns);
+    let (gram, right, squares) = null.project(count, |s| {
+        if s == r { columns.take().unwrap_or_default().into_iter().enumerate().collect() } else { Vec::new() }
+    });
+    (0..count)
+        .map(|i| {
+            let left = gram[(i, i)];
+            if left > SMALLEST_SHARE * squares[i] { right[i] / left.sqrt() } else { 0.0 }
+        })
+        .collect()
+}
+
+fn in_recording(null: &Null, r: usize) -> Vec<Finding> {
+    let scene = null.scene(r);
+    let (time, n) = (scene.time, scene.len());
+    let width = scene.duration() / MOMENTS as f64;
+    let mut columns: Vec<Vec<f64>> = (1..MOMENTS)
+        .map(|k| {
+            let from = n * k / MOMENTS;
+            (0..n).map(|i| if i >= from { scene.force[i] } else { 0.0 }).collect()
+        })
+        .collect();
+    columns.push(scene.force.to_vec());
+    columns.push(scene.velocity.to_vec());
+    let drive = drive(&scene);
+    if let Some(drive) = drive {
+        for h in 1..=HARMONICS {
+            let phase = |t: &f64| std::f64::consts::TAU * drive * h as f64 * t;
+            columns.push(time.iter().map(|t| phase(t).sin()).collect());
+            columns.push(time.iter().map(|t| phase(t).cos()).collect());
+        }
+    }
+    let scores = strengths(null, r, columns);
+    let mut found: Vec<Finding> = (1..MOMENTS)
+        .map(|k| {
+            let at = time[n * k / MOMENTS];
+            let place = Place::Time { recording: r, from: at - width, to: at + width };
+            Finding { place, strength: scores[k - 1].abs() }
+        })
+        .collect();
+    if null.assembly().campaign().recordings().len() > 1 {
+        for (k, damping) in [(0, false), (1, true)] {
+            let strength = scores[MOMENTS - 1 + k].abs();
+            found.push(Finding { place: Place::Recording { recording: r, damping }, strength });
+        }
+    }
+    if let Some(drive) = drive {
+        for h in 1..=HARMONICS {
+            let first = MOMENTS + 1 + 2 * (h - 1);
+            let strength = scores[first].hypot(scores[first + 1]);
+            let in_phase = if strength > 0.0 { phase_share(&scene, drive * h as f64, scores[first], scores[first + 1]) } else { 0.0 };
+            found.push(Finding {
+                place: Place::Harmonic { recording: r, harmonic: h, drive, in_phase },
+                strength,
+            });
+        }
+    }
+    found
+}
+
+/// Cosine of the phase between a harmonic and the displacement's own at that frequency.
+fn phase_share(scene: &Scene, frequency: f64, sine: f64, cosine: f64) -> f64 {
+    let (s, c) = fourier(scene.time, scene.displacement, frequency);
+    let size = s.hypot(c) * sine.hypot(cosine);
+    if size > 0.0 { (s * sine + c * cosine) / size } else { 0.0 }
+}
+
+fn fourier(time: &[f64], series: &[f64], frequency: f64) -> (f64, f64) {
+    time.iter().zip(series).fold((0.0, 0.0), |(s, c), (t, x)| {
+        let (sin, cos) = (std::f64::consts::TAU * frequency * t).sin_cos();
+        (s + x * sin, c + x * cos)
+    })
+}
+
+/// Frequency of a sinusoidal drive, Hz; `None` where the motion is no sine.
+fn drive(scene: &Scene) -> Option<f64> {
+    let (time, x) = (scene.time, scene.displacement);
+    let crossings: Vec<f64> = (1..x.len())
+        .filter(|i| x[i - 1] <= 0.0 && x[*i] > 0.0)
+        .map(|i| time[i - 1] - x[i - 1] * (time[i] - time[i - 1]) / (x[i] - x[i - 1]))
+        .collect();
+    if crossings.len() < 4 {
+        return None;
+    }
+    let mut periods: Vec<f64> = crossings.windows(2).map(|p| p[1] - p[0]).collect();
+    periods.sort_by(f64::total_cmp);
+    let typical = periods[periods.len() / 2];
+    let near = periods.iter().filter(|p| (*p - typical).abs() < 0.05 * typical).count();
+    (near as f64 >= 0.8 * periods.len() as f64).then(|| 1.0 / typical)
+}
+
+fn in_state(null: &Null) -> Vec<Finding> {
+    let sizes = null.assembly().campaign().sizes();
+    let (far, fast) = (sizes.displacement, sizes.velocity);
+    let step = 2.0 * far / STRETCHES as f64;
+    let centre = |k: usize| -far + step * k as f64;
+    // Every hat moving up, moving down, and both ways.
+    let count = 3 * (STRETCHES + 1);
+    let (gram, right, squares) = null.project(count, |r| {
+        let scene = null.scene(r);
+        (0..count)
+            .map(|place| {
+                let (k, way) = (place / 3, place % 3);
+                let column = (0..scene.len()).map(|i| {
+                    let admitted = match way {
+                        0 => scene.velocity[i] > 0.0,
+                        1 => scene.velocity[i] < 0.0,
+                        _ => true,
+                    };
+                    let hat = 1.0 - (scene.displacement[i] - centre(k)).abs() / step;
+                    if admitted { hat.max(0.0) } else { 0.0 }
+                });
+                (place, column.collect())
+            })
+            .collect()
+    });
+    (0..count)
+        .filter(|i| gram[(*i, *i)] > SMALLEST_SHARE * squares[*i] && squares[*i] > 0.0)
+        .map(|i| {
+            let (k, way) = (i / 3, i % 3);
+            let v = [[0.0, fast], [-fast, 0.0], [-fast, fast]][way];
+            let x = [(centre(k) - step).max(-far), (centre(k) + step).min(far)];
+            Finding { place: Place::State { x, v }, strength: right[i].abs() / gram[(i, i)].sqrt() }
+        })
+        .collect()
+}

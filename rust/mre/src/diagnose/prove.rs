@@ -1,0 +1,167 @@
+//! Proof on data that took no part: folds of recordings, or of blocks where there are too few recordings.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use super::least_squares::{Data, Fitted, Point, refine};
+use super::noise::Noise;
+use super::normal::Rows;
+use crate::assembly::Assembly;
+use crate::recording::Recording;
+
+/// Folds of recordings.
+const FOLDS: usize = 3;
+/// Blocks that a recording is cut into where blocks are held out.
+const BLOCKS: usize = 12;
+/// Longest guard between held-out and training samples, as a share of a block.
+const LONGEST_GUARD: f64 = 0.3;
+/// Guard where the blocks are long enough, s.
+const GUARD: f64 = 1.0;
+
+/// Training and held-out samples.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Split {
+    /// Samples that models are trained on, by recording.
+    pub train: Vec<Rows>,
+    /// Samples that they are judged on.
+    pub held_out: Vec<Rows>,
+}
+
+/// Splits in each of which other samples are held out.
+///
+/// Whole recordings are held out where every group that shares parameters has enough of them; otherwise,
+/// or where `by_blocks` asks for it, contiguous blocks of every recording, separated by a guard.
+pub fn splits(recordings: &[&Recording], groups: &[Vec<usize>], by_blocks: bool) -> Vec<Split> {
+    if by_blocks || groups.iter().any(|g| g.len() < FOLDS) {
+        return (0..FOLDS).map(|fold| blocks(recordings, fold)).collect();
+    }
+    (0..FOLDS)
+        .map(|fold| {
+            let mut split = Split { train: Vec::new(), held_out: Vec::new() };
+            for (r, recording) in recordings.iter().enumerate() {
+                let place = groups.iter().find_map(|g| g.iter().position(|m| *m == r)).unwrap_or(r);
+                let (out, whole) = (place % FOLDS == fold, vec![recording.scored()]);
+                split.train.push(if out { Vec::new() } else { whole.clone() });
+                split.held_out.push(if out { whole } else { Vec::new() });
+            }
+            split
+        })
+        .collect()
+}
+
+fn blocks(recordings: &[&Recording], fold: usize) -> Split {
+    let mut split = Split { train: Vec::new(), held_out: Vec::new() };
+    for recording in recordings {
+        let scored = recording.scored();
+        let edge = |b: usize| scored.start + scored.len() * b / BLOCKS;
+        let length = scored.len() as f64 / BLOCKS as f64;
+        let guard = (GUARD * recording.sampling_rate()).min(LONGEST_GUARD * length) as usize;
+        let (mut train, mut held_out): (Vec<Range<usize>>, Rows) = (Vec::new(), Vec::new());
+        for b in 0..BLOCKS {
+            let block = edge(b)..edge(b + 1);
+            if b % FOLDS == fold {
+                held_out.push(block);
+            } else {
+                let start = block.start + if b > 0 && (b - 1) % FOLDS == fold { guard } else { 0 };
+                let end = block.end - if (b + 1) % FOLDS == fold && b + 1 < BLOCKS { guard } else { 0 };
+                match train.last_mut() {
+                    Some(last) if last.end == start => last.end = end,
+                    _ => train.push(start..end),
+                }
+            }
+        }
+        split.train.push(train);
+        split.held_out.push(held_out);
+    }
+    split
+}
+
+/// Sum of squared errors in N^2, and of samples, on training and held-out samples over all splits.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Proof {
+    /// Rms error on the samples trained on, N.
+    pub train_rms: f64,
+    /// Rms error on the samples held out, N.
+    pub held_out_rms: f64,
+    /// Squared errors of the held-out samples in N^2 by recording, and their number.
+    pub by_recording: Vec<(f64, usize)>,
+}
+
+/// Train a model on each split, from a fit to everything, and judge it on what was held out.
+///
+/// Coefficients of the measurement (drift, interference) belong to a recording: those of a held-out one are
+/// fitted to it, and the rest of the model is not.
+pub fn prove(assembly: &Assembly, noise: &Noise, splits: &[Split], fitted: &Fitted) -> Proof {
+    let count = assembly.campaign().recordings().len();
+    let sums: Vec<(Vec<(f64, usize)>, Vec<(f64, usize)>)> = splits
+        .par_iter()
+        .map(|split| {
+            let data = Data { noise, rows: &split.train };
+            let trained = refine(assembly, data, &fitted.unit);
+            let point = Point::at(assembly, data, trained.unit);
+            let own = own_coefficients(assembly);
+            let errors = (0..count).map(|r| {
+                let recording = &assembly.campaign().recordings()[r];
+                let measured = recording.force().unwrap_or_default();
+                let mut error: Vec<f64> =
+                    measured.iter().zip(&point.recordings[r].force).map(|(f, m)| f - m).collect();
+                if own && split.train[r].is_empty() {
+                    fit_own(assembly, &point, r, &mut error);
+                }
+                let sum = |rows: &Rows| {
+                    let all = rows.iter().flat_map(|range| &error[range.clone()]);
+                    let count = rows.iter().map(ExactSizeIterator::len).sum();
+                    (all.map(|e| e * e).sum::<f64>(), count)
+                };
+                (sum(&split.train[r]), sum(&split.held_out[r]))
+            });
+            errors.unzip()
+        })
+        .collect();
+    let total = |side: fn(&(Vec<(f64, usize)>, Vec<(f64, usize)>)) -> &Vec<(f64, usize)>| {
+        let mut by_recording = vec![(0.0, 0); count];
+        for split in &sums {
+            for (all, one) in by_recording.iter_mut().zip(side(split)) {
+                *all = (all.0 + one.0, all.1 + one.1);
+            }
+        }
+        by_recording
+    };
+    let rms = |sums: &[(f64, usize)]| {
+        let (squares, count) = sums.iter().fold((0.0, 0), |s, one| (s.0 + one.0, s.1 + one.1));
+        (squares / count.max(1) as f64).sqrt()
+    };
+    let by_recording = total(|s| &s.1);
+    Proof { train_rms: rms(&total(|s| &s.0)), held_out_rms: rms(&by_recording), by_recording }
+}
+
+fn own_coefficients(assembly: &Assembly) -> bool {
+    assembly.effects().iter().any(|e| e.of_the_measurement())
+}
+
+/// Take off what the measurement's own columns explain of the error on a recording.
+fn fit_own(assembly: &Assembly, point: &Point, r: usize, error: &mut [f64]) {
+    let columns = assembly.columns(r, &assembly.physical(&point.fitted.unit));
+    let device = assembly.device_coefficients();
+    let own: Vec<&Vec<f64>> = columns
+        .columns
+        .iter()
+        .zip(&columns.places)
+        .filter(|(_, place)| !device[**place])
+        .map(|(column, _)| column)
+        .collect();
+    let gram = nalgebra::DMatrix::from_fn(own.len(), own.len(), |i, j| {
+        let ridge = if i == j { 1e-12 } else { 0.0 };
+        crate::kernel::filter::dot(own[i], own[j]) * (1.0 + ridge)
+    });
+    let right = nalgebra::DVector::from_fn(own.len(), |i, _| crate::kernel::filter::dot(own[i], error));
+    if let Some(factor) = gram.cholesky() {
+        let c = factor.solve(&right);
+        for (column, c) in own.iter().zip(c.iter()) {
+            for (e, value) in error.iter_mut().zip(*column) {
+                *e -= c * value;
+            }
+        }
+    }
+}

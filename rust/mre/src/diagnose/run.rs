@@ -1,0 +1,171 @@
+//! The whole diagnosis.
+
+use super::begin::{Begun, begin};
+use super::candidates::{by_effect, residuals};
+use super::intervals::{Estimates, estimates};
+use super::least_squares::{Data, Fitted, Point, refine};
+use super::locate::{Finding, locate};
+use super::missing::Mismatch;
+use super::normal::Rows;
+use super::prove::{Proof, prove, splits};
+use super::screen::{Null, Score};
+use super::search::{Named, Search, rms};
+use super::verdict::{Evidence, Verdict};
+use crate::assembly::{Assembly, Base, Campaign};
+use crate::recording::Recording;
+
+/// An effect that was named.
+#[derive(Debug, Clone)]
+pub struct Effect {
+    /// Its place in the model.
+    pub place: usize,
+    /// p-value with which it entered.
+    pub p_value: f64,
+    /// Held-out rms without it, the other effects in place, N.
+    pub held_out_before: f64,
+    /// Held-out rms with it, N.
+    pub held_out_after: f64,
+}
+
+/// What a diagnosis found.
+pub struct Diagnosis<'a> {
+    /// The base as fitted alone.
+    pub base: Named<'a>,
+    /// The base with the effects named, fitted together on everything.
+    pub named: Named<'a>,
+    /// Verdict.
+    pub verdict: Verdict,
+    /// What is left beside the final model.
+    pub evidence: Evidence,
+    /// The effects, by how much each improves the held-out fit.
+    pub effects: Vec<Effect>,
+    /// Where the base model misses.
+    pub places: Vec<Finding>,
+    /// Parameters of the base alone.
+    pub base_estimates: Estimates,
+    /// Parameters of the final model.
+    pub estimates: Estimates,
+    /// The base alone on training and held-out samples.
+    pub before: Proof,
+    /// The final model on the same.
+    pub after: Proof,
+    /// Rms of the noise, N.
+    pub noise_rms: f64,
+    /// Force of the base model in N, by recording.
+    pub base_force: Vec<Vec<f64>>,
+    /// Force of the final model.
+    pub final_force: Vec<Vec<f64>>,
+}
+
+/// Diagnose recordings with a base model.
+pub fn run<'a>(campaign: &'a Campaign, base: &'a Base, false_alarm: f64, seed: u64) -> Diagnosis<'a> {
+    let rows: Vec<Rows> = campaign.recordings().iter().map(|r| vec![r.scored()]).collect();
+    let begun = begin(campaign, base, &rows);
+    let recordings: Vec<&Recording> = campaign.recordings().iter().map(AsRef::as_ref).collect();
+    let groups: Vec<Vec<usize>> = match base {
+        Base::Fitted(groups) => groups.iter().map(|g| g.members.clone()).collect(),
+        Base::Given(_) => vec![(0..recordings.len()).collect()],
+    };
+    let whole = splits(&recordings, &groups, false);
+    let search = Search { begun: &begun, rows: &rows, splits: &whole, false_alarm, seed };
+    let mut named = search.run();
+    settle_reference(&mut named, &rows);
+    let data = Data { noise: &named.noise, rows: &rows };
+    let base_fit = refine(&begun.assembly, data, &begun.fitted.unit);
+    let alone = null(&begun, data, &base_fit);
+    let places = alone.as_ref().map_or_else(Vec::new, |n| locate(n, false_alarm));
+    let mismatch = |n: &Option<Null>| n.as_ref().map_or(Mismatch { p_value: 1.0, excess: 0.0 }, Null::mismatch);
+    let first = mismatch(&alone);
+    let beside = Null::new(&named.assembly, data, &named.fitted.unit);
+    let rest = mismatch(&beside);
+    drop(beside);
+    let explained = (base_fit.left - named.fitted.left).max(0.0);
+    let evidence = Evidence::new(first, rest, explained, &named, rms_change(&named, data), false_alarm);
+    let verdict = evidence.verdict(named.assembly.effects().len());
+    let sharp = named.assembly.effects().iter().any(|e| e.in_one_recording());
+    let judged = if sharp { splits(&recordings, &groups, true) } else { whole.clone() };
+    let before = prove(&begun.assembly, &named.noise, &judged, &base_fit);
+    let after = prove(&named.assembly, &named.noise, &judged, &named.fitted);
+    let mut effects: Vec<Effect> = (0..named.assembly.effects().len())
+        .map(|place| {
+            let without = search.drop(&named, place);
+            let proof = prove(&without.assembly, &named.noise, &judged, &without.fitted);
+            Effect {
+                place,
+                p_value: named.p_values.get(place).copied().unwrap_or(0.0),
+                held_out_before: proof.held_out_rms,
+                held_out_after: after.held_out_rms,
+            }
+        })
+        .collect();
+    effects.sort_by(|a, b| b.held_out_before.total_cmp(&a.held_out_before));
+    let force = |assembly: &Assembly, fitted: &Fitted| -> Vec<Vec<f64>> {
+        let point = Point::at(assembly, data, fitted.unit.clone());
+        point.recordings.into_iter().map(|local| local.force).collect()
+    };
+    let best = match &named.next {
+        Some(next) => residuals(&next.assembly, data, &next.fitted),
+        None => residuals(&named.assembly, data, &named.fitted),
+    };
+    Diagnosis {
+        verdict,
+        evidence,
+        effects,
+        places,
+        base_estimates: estimates(&begun.assembly, data, &base_fit.unit),
+        estimates: estimates(&named.assembly, data, &named.fitted.unit),
+        before,
+        after,
+        noise_rms: rms(&best),
+        base_force: force(&begun.assembly, &base_fit),
+        final_force: force(&named.assembly, &named.fitted),
+        base: Named {
+            assembly: begun.assembly.clone(),
+            fitted: base_fit,
+            noise: named.noise.clone(),
+            scores: Vec::new(),
+            next: None,
+            p_values: Vec::new(),
+        },
+        named,
+    }
+}
+
+fn null<'b>(begun: &'b Begun<'b>, data: Data<'b>, fitted: &Fitted) -> Option<Null<'b>> {
+    Null::new(&begun.assembly, data, &fitted.unit)
+}
+
+/// Effects refer to the force of the base as it is in the joint model, as a simulation will have it.
+fn settle_reference(named: &mut Named, rows: &[Rows]) {
+    if named.assembly.effects().is_empty() {
+        return;
+    }
+    for _ in 0..3 {
+        let data = Data { noise: &named.noise, rows };
+        let shapes = named.assembly.base_shapes();
+        let alone = named.assembly.with(Vec::new());
+        let unit = &named.fitted.unit[..shapes];
+        let coefficients = &named.fitted.coefficients[..named.assembly.base_coefficients()];
+        let force = alone.force(unit, coefficients);
+        named.assembly = named.assembly.referring_to(force);
+        named.fitted = refine(&named.assembly, data, &named.fitted.unit);
+    }
+}
+
+/// Rms in N of what the best further candidate would change in the force.
+fn rms_change(named: &Named, data: Data) -> f64 {
+    let Some(next) = &named.next else { return 0.0 };
+    let force = |assembly: &Assembly, fitted: &Fitted| {
+        Point::at(assembly, data, fitted.unit.clone()).recordings.into_iter().map(|l| l.force).collect()
+    };
+    let (a, b): (Vec<Vec<f64>>, Vec<Vec<f64>>) =
+        (force(&named.assembly, &named.fitted), force(&next.assembly, &next.fitted));
+    let change: Vec<Vec<f64>> =
+        a.iter().zip(&b).map(|(a, b)| a.iter().zip(b).map(|(a, b)| a - b).collect()).collect();
+    rms(&change)
+}
+
+/// p-value of every effect beside the final model.
+pub fn beside(scores: &[Score]) -> Vec<(&'static str, f64)> {
+    by_effect(scores)
+}

@@ -1,0 +1,257 @@
+//! Naming: which effects, added to the base and refitted together with it, explain the recordings.
+//!
+//! The law with the lowest whitened BIC enters if its effect's p-value passes Holm's threshold (Holm 1979).
+//! Then other laws of the effects already named are tried in their place, and the noise is estimated anew
+//! from the best model so far. A further effect enters only if it also helps on data that took no part. Pairs
+//! are searched from several firsts, because the best single effect may be neither of two; at the end an
+//! effect that the others make unnecessary leaves.
+
+use rayon::prelude::*;
+
+use super::begin::Begun;
+use super::candidates::{Candidate, by_effect, candidates, joint, noise_left, residuals, scores};
+use super::least_squares::{Data, Fitted, refine};
+use super::noise::Noise;
+use super::normal::Rows;
+use super::prove::{Split, prove};
+use super::screen::Score;
+use crate::assembly::Assembly;
+use crate::effect::{CATALOGUE, Effect};
+
+/// Most effects that are named.
+const MOST: usize = 4;
+/// Candidates for the first of a pair.
+const FIRSTS: usize = 5;
+/// A further effect lowers the held-out rms by more than this share of the noise's rms.
+const LEAST_OF_NOISE: f64 = 0.1;
+/// And by more than this share of what the first one lowered it.
+const LEAST_OF_FIRST: f64 = 0.2;
+/// Advantage in the criterion that counts.
+const CLEAR: f64 = 10.0;
+
+/// A model with its fit and the noise that it leaves.
+#[derive(Clone)]
+pub struct Named<'a> {
+    /// The base and the effects named.
+    pub assembly: Assembly<'a>,
+    /// Its fit.
+    pub fitted: Fitted,
+    /// Noise of the recordings, after the best model that was tried.
+    pub noise: Noise,
+    /// What the scores beside this model found, for each law.
+    pub scores: Vec<Score>,
+    /// The best candidate beside this model, whether it is significant or not.
+    pub next: Option<Candidate<'a>>,
+    /// For each effect, the p-value with which it entered.
+    pub p_values: Vec<f64>,
+}
+
+/// What the search works on.
+pub(super) struct Search<'s, 'a> {
+    pub(super) begun: &'s Begun<'a>,
+    pub(super) rows: &'s [Rows],
+    pub(super) splits: &'s [Split],
+    pub(super) false_alarm: f64,
+    pub(super) seed: u64,
+}
+
+impl<'a> Search<'_, 'a> {
+    /// Name the effects.
+    pub(super) fn run(&self) -> Named<'a> {
+        let mut here = self.look(self.begun.assembly.clone(), &self.begun.fitted.unit, &self.begun.noise);
+        let mut removed_by_first = None;
+        while here.assembly.effects().len() < MOST {
+            let Some((p_value, next)) = self.significant(&here) else { break };
+            let mut wider = self.look(next.assembly.clone(), &next.fitted.unit, &here.noise);
+            wider.p_values = here.p_values.iter().copied().chain([p_value]).collect();
+            if here.assembly.effects().is_empty() {
+                wider = self.best_law(wider);
+                if let Some((_, second)) = self.significant(&wider) {
+                    wider = self.best_first(&here, wider, &second);
+                }
+                removed_by_first = Some(self.improvement(&here, &wider).0);
+            } else {
+                wider = self.best_law(wider);
+                let (removed, noise) = self.improvement(&here, &wider);
+                let enough = LEAST_OF_NOISE * noise;
+                if removed < enough || removed < LEAST_OF_FIRST * removed_by_first.unwrap_or(0.0) {
+                    break;
+                }
+            }
+            here = wider;
+        }
+        self.without_the_needless(here)
+    }
+
+    /// Score the catalogue beside a model, twice: the second time with the noise that the best candidate of
+    /// the first leaves.
+    fn look(&self, assembly: Assembly<'a>, unit: &[f64], noise: &Noise) -> Named<'a> {
+        let mut noise = noise.clone();
+        let mut unit = unit.to_vec();
+        for _ in 0..2 {
+            let data = Data { noise: &noise, rows: self.rows };
+            let fitted = refine(&assembly, data, &unit);
+            let found = scores(&assembly, data, &fitted.unit, self.seed);
+            let best = candidates(&assembly, data, &fitted.unit, &found).into_iter().next();
+            noise = match &best {
+                Some(best) => noise_left(&best.assembly, data, &best.fitted),
+                None => noise_left(&assembly, data, &fitted),
+            };
+            unit = fitted.unit;
+        }
+        let data = Data { noise: &noise, rows: self.rows };
+        let fitted = refine(&assembly, data, &unit);
+        let found = scores(&assembly, data, &fitted.unit, self.seed);
+        let next = candidates(&assembly, data, &fitted.unit, &found).into_iter().next();
+        Named { assembly, fitted, noise, scores: found, next, p_values: Vec::new() }
+    }
+
+    /// The best candidate, if its effect passes Holm's threshold: the smallest p-value against the number of
+    /// effects does, or the candidate's own does in its turn.
+    fn significant(&self, here: &Named<'a>) -> Option<(f64, Candidate<'a>)> {
+        let next = here.next.as_ref()?;
+        let id = next.assembly.effects().last()?.about().effect;
+        let mut effects = by_effect(&here.scores);
+        effects.sort_by(|a, b| a.1.total_cmp(&b.1));
+        let mut adjusted: f64 = 0.0;
+        for (turn, (effect, p)) in effects.iter().enumerate() {
+            adjusted = adjusted.max(p * (effects.len() - turn) as f64);
+            if adjusted > self.false_alarm {
+                return None;
+            }
+            if *effect == id {
+                return Some((adjusted, next.clone()));
+            }
+        }
+        None
+    }
+
+    /// The same effects, each with the law that leaves least.
+    fn best_law(&self, named: Named<'a>) -> Named<'a> {
+        let mut best = named;
+        for place in 0..best.assembly.effects().len() {
+            let known = best.assembly.effects()[place];
+            let others = CATALOGUE.iter().copied().filter(|e| {
+                e.about().effect == known.about().effect
+                    && e.about() != known.about()
+                    && e.applies(best.assembly.campaign().sizes())
+            });
+            let data = Data { noise: &best.noise, rows: self.rows };
+            let without = self.drop(&best, place);
+            let tried = others
+                .collect::<Vec<_>>()
+                .into_par_iter()
+                .filter_map(|e| self.best_start(&without, data, e))
+                .collect::<Vec<_>>();
+            let now = Candidate { assembly: best.assembly.clone(), fitted: best.fitted.clone() };
+            let better = tried
+                .into_iter()
+                .filter(|c| c.criterion() < now.criterion() - CLEAR)
+                .min_by(|a, b| a.criterion().total_cmp(&b.criterion()));
+            if let Some(better) = better {
+                let p_values = best.p_values.clone();
+                best = self.look(better.assembly, &better.fitted.unit, &best.noise);
+                best.p_values = p_values;
+            }
+        }
+        best
+    }
+
+    /// Joint fit of a model with a law, from the law's two strongest starts.
+    fn best_start(
+        &self,
+        without: &Candidate<'a>,
+        data: Data,
+        effect: &'static dyn Effect,
+    ) -> Option<Candidate<'a>> {
+        let null = super::screen::Null::new(&without.assembly, data, &without.fitted.unit)?;
+        let score = null.score(effect, self.seed)?;
+        Some(joint(&without.assembly, data, &without.fitted.unit, effect, &score.start))
+    }
+
+    /// A model without one of its effects, refitted.
+    pub(super) fn drop(&self, named: &Named<'a>, place: usize) -> Candidate<'a> {
+        let mut effects = named.assembly.effects().to_vec();
+        effects.remove(place);
+        let narrower = named.assembly.with(effects);
+        let sizes = named.assembly.campaign().sizes();
+        let mut shapes = named.assembly.physical(&named.fitted.unit);
+        let first: usize = named.assembly.base_shapes()
+            + named.assembly.effects()[..place].iter().map(|e| e.shape(sizes).len()).sum::<usize>();
+        let count = named.assembly.effects()[place].shape(sizes).len();
+        shapes.drain(first..first + count);
+        let data = Data { noise: &named.noise, rows: self.rows };
+        let fitted = refine(&narrower, data, &narrower.unit(&shapes));
+        Candidate { assembly: narrower, fitted }
+    }
+
+    /// The first of the best pair, where the pair from another first is clearly better than the pair from
+    /// the best single effect.
+    fn best_first(&self, before: &Named<'a>, single: Named<'a>, second: &Candidate<'a>) -> Named<'a> {
+        let data = Data { noise: &single.noise, rows: self.rows };
+        let known = single.assembly.effects()[0].about().effect;
+        let mut firsts: Vec<Candidate> = Vec::new();
+        for candidate in candidates(&before.assembly, data, &before.fitted.unit, &before.scores) {
+            let id = candidate.assembly.effects()[0].about().effect;
+            let seen = firsts.iter().any(|f| f.assembly.effects()[0].about().effect == id);
+            if id != known && !seen && firsts.len() < FIRSTS {
+                firsts.push(candidate);
+            }
+        }
+        let pairs: Vec<(Candidate, Candidate)> = firsts
+            .into_par_iter()
+            .filter_map(|first| {
+                let found = scores(&first.assembly, data, &first.fitted.unit, self.seed);
+                let best = candidates(&first.assembly, data, &first.fitted.unit, &found).into_iter().next()?;
+                Some((first, best))
+            })
+            .collect();
+        let best = pairs.into_iter().min_by(|a, b| a.1.criterion().total_cmp(&b.1.criterion()));
+        match best {
+            Some((first, pair)) if pair.criterion() < second.criterion() - CLEAR => {
+                let p_values = single.p_values.clone();
+                let mut named = self.look(first.assembly, &first.fitted.unit, &single.noise);
+                named.p_values = p_values;
+                named
+            }
+            _ => single,
+        }
+    }
+
+    /// How much one model lowers the held-out rms of another, N, and the rms of the noise.
+    fn improvement(&self, before: &Named<'a>, after: &Named<'a>) -> (f64, f64) {
+        let proof = |n: &Named<'a>| prove(&n.assembly, &after.noise, self.splits, &n.fitted).held_out_rms;
+        let data = Data { noise: &after.noise, rows: self.rows };
+        let left = match &after.next {
+            Some(next) => residuals(&next.assembly, data, &next.fitted),
+            None => residuals(&after.assembly, data, &after.fitted),
+        };
+        (proof(before) - proof(after), rms(&left))
+    }
+
+    /// Remove effects that the others make unnecessary.
+    fn without_the_needless(&self, named: Named<'a>) -> Named<'a> {
+        let mut here = named;
+        let mut place = 0;
+        while here.assembly.effects().len() > 1 && place < here.assembly.effects().len() {
+            let now = Candidate { assembly: here.assembly.clone(), fitted: here.fitted.clone() };
+            let without = self.drop(&here, place);
+            if without.criterion() < now.criterion() {
+                let mut p_values = here.p_values.clone();
+                p_values.remove(place);
+                here = self.look(without.assembly, &without.fitted.unit, &here.noise);
+                here.p_values = p_values;
+                place = 0;
+            } else {
+                place += 1;
+            }
+        }
+        here
+    }
+}
+
+/// Root mean square over recordings.
+pub(super) fn rms(series: &[Vec<f64>]) -> f64 {
+    let count: usize = series.iter().map(Vec::len).sum();
+    (series.iter().flatten().map(|e| e * e).sum::<f64>() / count as f64).sqrt()
+}

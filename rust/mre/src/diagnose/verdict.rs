@@ -1,0 +1,88 @@
+//! Verdict: what the tests beside the final model say.
+
+use super::candidates::by_effect;
+use super::missing::Mismatch;
+use super::search::Named;
+
+/// A rest that carries more than this share of all that can be explained is more than an inexact form.
+const FORM: f64 = 0.1;
+
+/// The verdicts of `diagnosis.json`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// The base model explains the recordings down to their noise.
+    Adequate,
+    /// The effects named explain the mismatch.
+    MissingPhysics,
+    /// Effects were found, and a mismatch is left that nothing in the catalogue explains.
+    PartlyExplained,
+    /// A mismatch, and nothing in the catalogue explains it.
+    Unexplained,
+}
+
+impl Verdict {
+    /// As in `diagnosis.json`.
+    pub fn id(self) -> &'static str {
+        match self {
+            Self::Adequate => "adequate",
+            Self::MissingPhysics => "missing_physics",
+            Self::PartlyExplained => "partly_explained",
+            Self::Unexplained => "unexplained",
+        }
+    }
+}
+
+/// What is left beside the final model.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Evidence {
+    /// Chance of the base model's mismatch under the null.
+    pub p_base: f64,
+    /// Chance of the final model's.
+    pub p_rest: f64,
+    /// True where the final model's mismatch is significant.
+    pub rest: bool,
+    /// Share of the rest in all that can be explained, in squared standard deviations.
+    pub share: f64,
+    /// Rms in N of the force that the best further candidate would add.
+    pub lack_of_fit: f64,
+}
+
+impl Evidence {
+    pub(super) fn new(
+        first: Mismatch,
+        rest: Mismatch,
+        explained: f64,
+        named: &Named,
+        change: f64,
+        false_alarm: f64,
+    ) -> Self {
+        let catalogue = by_effect(&named.scores);
+        let holm = catalogue.iter().map(|(_, p)| *p).fold(1.0, f64::min) * catalogue.len() as f64;
+        let p_rest = (2.0 * rest.p_value.min(holm)).min(1.0);
+        let gain = named.next.as_ref().map_or(0.0, |n| (named.fitted.left - n.fitted.left).max(0.0));
+        let left = rest.excess.max(gain);
+        let share = if left > 0.0 { left / (left + explained) } else { 0.0 };
+        let significant = p_rest <= false_alarm;
+        Self {
+            p_base: first.p_value,
+            p_rest,
+            rest: significant,
+            share,
+            lack_of_fit: if significant { change } else { 0.0 },
+        }
+    }
+
+    pub(super) fn verdict(&self, effects: usize) -> Verdict {
+        match (effects, self.rest) {
+            (0, false) => Verdict::Adequate,
+            (0, true) => Verdict::Unexplained,
+            (_, true) if self.share > FORM => Verdict::PartlyExplained,
+            _ => Verdict::MissingPhysics,
+        }
+    }
+
+    /// True where the law of the named effects is not exactly the catalogue's.
+    pub fn approximate(&self) -> bool {
+        self.rest
+    }
+}
