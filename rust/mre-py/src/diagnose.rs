@@ -37,12 +37,11 @@ pub(crate) fn diagnose_recordings<'py>(
             Some(force) => Base::Given(force),
             None => Base::fitted(&recordings, model, &groups)?,
         };
-        let found = diagnose::run(&campaign, &base, false_alarm, seed);
+        let found = diagnose::run(&campaign, &base, &[], false_alarm, seed);
         Ok((describe(&found, &base).to_string(), found.base_force, found.final_force))
     })?;
     let (text, base, last) = result.map_err(to_python)?;
-    let arrays =
-        |forces: Histories| forces.into_iter().map(|force| PyArray1::from_vec(py, force)).collect();
+    let arrays = |forces: Histories| forces.into_iter().map(|force| PyArray1::from_vec(py, force)).collect();
     Ok((text, arrays(base), arrays(last)))
 }
 
@@ -65,7 +64,15 @@ fn describe(found: &Diagnosis, base: &Base) -> Value {
         "lack_of_fit_N": evidence.lack_of_fit,
         "approximate": evidence.approximate(),
         "candidates": diagnose::beside(&found.named.scores),
+        "absorbed": found.absorbed.iter().map(absorbed).collect::<Vec<_>>(),
         "sizes": sizes(found),
+    })
+}
+
+fn absorbed(a: &diagnose::Absorbed) -> Value {
+    json!({
+        "id": a.effect, "parameter": a.parameter.0, "unit": a.parameter.1, "up_to": a.up_to,
+        "whatever_its_size": a.whatever_its_size,
     })
 }
 
@@ -103,6 +110,7 @@ fn effect(found: &Diagnosis, named: &diagnose::Effect) -> Value {
         "id": about.effect, "law": about.law, "plain": about.plain, "equation": about.equation,
         "reference": about.reference, "limit": about.limit, "of_the_measurement": this.of_the_measurement(),
         "coefficients": coefficients, "shapes": shapes, "p_value": named.p_value,
+        "indistinguishable_from": named.rivals,
         "held_out_rms_before": named.held_out_before, "held_out_rms_after": named.held_out_after,
     })
 }

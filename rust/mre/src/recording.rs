@@ -184,7 +184,12 @@ impl Recording {
     }
 
     /// The same recording with another motion, and another current where given; all of one length.
-    pub(crate) fn seen_with(&self, displacement: Vec<f64>, velocity: Vec<f64>, current: Option<Vec<f64>>) -> Self {
+    pub(crate) fn seen_with(
+        &self,
+        displacement: Vec<f64>,
+        velocity: Vec<f64>,
+        current: Option<Vec<f64>>,
+    ) -> Self {
         let mut seen = self.clone();
         seen.series.displacement = displacement;
         seen.velocity = velocity;

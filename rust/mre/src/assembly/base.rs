@@ -1,7 +1,8 @@
-//! The base of an assembly: a model with parameters for every level of the current, or a given force.
+//! The base of an assembly: a model that is fitted, a device that is kept as it is, or a given force.
 
 use std::sync::Arc;
 
+use crate::device::Device;
 use crate::error::Result;
 use crate::fitness::{Problem, Weights};
 use crate::model::Model;
@@ -25,7 +26,9 @@ pub struct Group {
 pub enum Base {
     /// A model that is fitted, in groups that share parameters.
     Fitted(Vec<Group>),
-    /// A force in N for every recording, which is kept as it is.
+    /// A device whose parameters are kept as they are.
+    Held(Device),
+    /// A force in N for every recording, such as a user's own simulation.
     Given(Vec<Vec<f64>>),
 }
 
@@ -40,12 +43,7 @@ impl Base {
             let problem = Problem::new(own, Model::named(model)?, &[], &Weights::Samples)?;
             let is_shape = problem.law().shapes(problem.model());
             let places = |wanted: bool| (0..is_shape.len()).filter(|i| is_shape[*i] == wanted).collect();
-            Ok(Group {
-                members: members.clone(),
-                coefficients: places(false),
-                shapes: places(true),
-                problem,
-            })
+            Ok(Group { members: members.clone(), coefficients: places(false), shapes: places(true), problem })
         });
         Ok(Self::Fitted(groups.collect::<Result<_>>()?))
     }
@@ -54,7 +52,7 @@ impl Base {
     pub fn groups(&self) -> &[Group] {
         match self {
             Self::Fitted(groups) => groups,
-            Self::Given(_) => &[],
+            Self::Held(_) | Self::Given(_) => &[],
         }
     }
 }

@@ -3,10 +3,12 @@
 
 mod base;
 mod campaign;
+mod columns;
 mod layout;
 mod simulate;
 
 pub use base::Base;
 pub use campaign::Campaign;
-pub use layout::{Assembly, Columns};
+pub use columns::Columns;
+pub use layout::Assembly;
 pub use simulate::{Addition, simulate};

@@ -4,19 +4,23 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::least_squares::{Data, Fitted, Point, refine, refine_at_most};
 use super::candidates::noise_left;
+use super::least_squares::{Data, Fitted, refine, refine_at_most};
 use super::noise::Noise;
 use super::normal::Rows;
 use crate::assembly::{Assembly, Base, Campaign};
+use crate::effect::{Effect, InitialState, starts_in_motion};
 
 /// Steps of the first descents.
 const FEW: usize = 8;
 
+/// An effect that belongs to the base, with the shapes from which its fit starts.
+pub type Given = (&'static dyn Effect, Vec<f64>);
+
 /// A base on a campaign with its fit; effects refer to its force.
 #[derive(Clone)]
 pub struct Begun<'a> {
-    /// The base without effects.
+    /// The base, with the effects that belong to it.
     pub assembly: Assembly<'a>,
     /// Its fit on whitened data.
     pub fitted: Fitted,
@@ -24,14 +28,21 @@ pub struct Begun<'a> {
     pub noise: Noise,
 }
 
-/// Fit a base on the rows that count.
-pub fn begin<'a>(campaign: &'a Campaign, base: &'a Base, rows: &[Rows]) -> Begun<'a> {
+/// Fit a base on the rows that count, with effects that belong to it.
+///
+/// Where a recording starts in motion, the remainders of its unknown initial states are one of them.
+pub fn begin<'a>(campaign: &'a Campaign, base: &'a Base, given: &[Given], rows: &[Rows]) -> Begun<'a> {
     let count = campaign.recordings().len();
     let nothing = campaign.recordings().iter().map(|r| vec![0.0; r.len()]).collect();
-    let assembly = Assembly::new(campaign, base, Vec::new(), Arc::new(nothing));
+    let mut effects: Vec<&'static dyn Effect> = given.iter().map(|(effect, _)| *effect).collect();
+    if campaign.recordings().iter().any(|r| starts_in_motion(r)) {
+        effects.push(&InitialState);
+    }
+    let shapes: Vec<f64> = given.iter().flat_map(|(_, shape)| shape.clone()).collect();
+    let assembly = Assembly::new(campaign, base, effects, Arc::new(nothing));
     let white = Noise::white(count, 0.01 * campaign.sizes().force);
     let data = Data { noise: &white, rows };
-    let starts = starts(base);
+    let starts = starts(&assembly, &shapes);
     let first = starts
         .par_iter()
         .map(|start| refine_at_most(&assembly, data, start, FEW))
@@ -43,17 +54,15 @@ pub fn begin<'a>(campaign: &'a Campaign, base: &'a Base, rows: &[Rows]) -> Begun
     let noise = noise_left(&assembly, data, &coarse);
     let data = Data { noise: &noise, rows };
     let fitted = refine(&assembly, data, &coarse.unit);
-    let force: Vec<Vec<f64>> = Point::at(&assembly, data, fitted.unit.clone())
-        .recordings
-        .into_iter()
-        .map(|local| local.force)
-        .collect();
+    let force = assembly.base_force(&fitted.unit, &fitted.coefficients);
     let noise = noise_left(&assembly, data, &fitted);
     Begun { assembly: assembly.referring_to(force), fitted, noise }
 }
 
-/// Points of the unit box for the shapes of every group: the same place in each group.
-fn starts(base: &Base) -> Vec<Vec<f64>> {
+/// Points of the unit box for the shapes of every group, the same place in each group, and the shapes of the
+/// effects.
+fn starts(assembly: &Assembly, given: &[f64]) -> Vec<Vec<f64>> {
+    let base = assembly.base();
     let shapes = base.groups().first().map_or(0, |g| g.shapes.len());
     let places: Vec<Vec<f64>> = match shapes {
         0 => vec![Vec::new()],
@@ -69,5 +78,15 @@ fn starts(base: &Base) -> Vec<Vec<f64>> {
             })
             .collect(),
     };
-    places.into_iter().map(|start| start.repeat(base.groups().len())).collect()
+    let known = assembly.base_shapes();
+    places
+        .into_iter()
+        .map(|start| {
+            let mut all = vec![0.0; known];
+            all.extend_from_slice(given);
+            let mut unit = assembly.unit(&all);
+            unit.splice(..known, start.repeat(base.groups().len()));
+            unit
+        })
+        .collect()
 }

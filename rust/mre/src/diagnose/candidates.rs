@@ -9,8 +9,6 @@ use super::screen::{Null, Score};
 use crate::assembly::Assembly;
 use crate::effect::{CATALOGUE, Effect};
 
-/// Candidates that are refitted jointly at each step.
-const REFITTED: usize = 12;
 /// A candidate whose score is below this share of the best is not refitted.
 const PROMISING: f64 = 0.15;
 
@@ -81,7 +79,7 @@ pub(super) fn by_effect(scores: &[Score]) -> Vec<(&'static str, f64)> {
 
 /// The laws that are worth a joint fit, strongest first.
 fn promising(scores: &[Score], most: usize) -> Vec<&Score> {
-    let mut sorted: Vec<&Score> = scores.iter().collect();
+    let mut sorted: Vec<&Score> = scores.iter().filter(|s| s.gain > 0.0).collect();
     sorted.sort_by(|a, b| b.gain.total_cmp(&a.gain));
     let best = sorted.first().map_or(0.0, |s| s.gain);
     sorted.retain(|s| s.gain >= PROMISING * best);
@@ -112,12 +110,12 @@ pub(super) fn candidates<'a>(
     data: Data,
     unit: &[f64],
     scores: &[Score],
+    most: usize,
 ) -> Vec<Candidate<'a>> {
-    let mut found: Vec<Candidate> = promising(scores, REFITTED)
+    let mut found: Vec<Candidate> = promising(scores, most)
         .into_par_iter()
         .map(|score| joint(assembly, data, unit, score.effect, &score.start))
         .collect();
     found.sort_by(|a, b| a.criterion().total_cmp(&b.criterion()));
     found
 }
-

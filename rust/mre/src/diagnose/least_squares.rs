@@ -98,8 +98,7 @@ fn step(system: &Normal, coefficients: usize, damping: f64, unit: &[f64]) -> DVe
                 found[i - k] = solution[a] / scale[*i];
             }
         }
-        let outward =
-            |j: usize| (unit[j] <= 0.0 && found[j] < 0.0) || (unit[j] >= 1.0 && found[j] > 0.0);
+        let outward = |j: usize| (unit[j] <= 0.0 && found[j] < 0.0) || (unit[j] >= 1.0 && found[j] > 0.0);
         let mut more = false;
         for j in 0..d {
             if !held[j] && outward(j) {
@@ -135,6 +134,7 @@ impl Point {
     /// The best coefficients for given shapes.
     pub(super) fn at(assembly: &Assembly, data: Data, unit: Vec<f64>) -> Self {
         let shapes = assembly.physical(&unit);
+        let assembly = &assembly.knowing(&shapes);
         let count = assembly.campaign().recordings().len();
         let raw: Vec<Columns> = (0..count).into_par_iter().map(|r| assembly.columns(r, &shapes)).collect();
         let coefficients = assembly.coefficients();
@@ -174,6 +174,7 @@ impl Point {
 
     /// Normal equations of coefficients and shapes together, for the residual.
     pub(super) fn with_tangents(&self, assembly: &Assembly, data: Data) -> Normal {
+        let assembly = &assembly.knowing(&assembly.physical(&self.fitted.unit));
         let (k, d) = (self.fitted.coefficients.len(), self.fitted.unit.len());
         let parts: Vec<Normal> = (0..self.recordings.len())
             .into_par_iter()

@@ -13,6 +13,8 @@ const MOMENTS: usize = 40;
 const STRETCHES: usize = 20;
 /// Highest harmonic of the drive.
 const HARMONICS: usize = 7;
+/// A moment explains so many times as much as its whole recording.
+const CLEARLY: f64 = 1.3;
 /// Entries at most.
 const MOST: usize = 12;
 /// Share of a column's square that the base model has to leave.
@@ -90,10 +92,9 @@ pub(super) fn locate(null: &Null, false_alarm: f64) -> Vec<Finding> {
 
 fn overlap(a: &Place, b: &Place) -> bool {
     match (a, b) {
-        (
-            Place::Time { recording: r, from, to },
-            Place::Time { recording: s, from: start, to: end },
-        ) => r == s && from < end && start < to,
+        (Place::Time { recording: r, from, to }, Place::Time { recording: s, from: start, to: end }) => {
+            r == s && from < end && start < to
+        }
         (Place::State { x, v }, Place::State { x: y, v: w }) => {
             x[0] < y[1] && y[0] < x[1] && v[0] < w[1] && w[0] < v[1]
         }
@@ -137,7 +138,10 @@ fn in_recording(null: &Null, r: usize) -> Vec<Finding> {
         }
     }
     let scores = strengths(null, r, columns);
+    // A change at a moment says more than the whole recording only where it explains clearly more.
+    let whole = scores[MOMENTS - 1].powi(2);
     let mut found: Vec<Finding> = (1..MOMENTS)
+        .filter(|k| scores[k - 1].powi(2) > CLEARLY * whole)
         .map(|k| {
             let at = time[n * k / MOMENTS];
             let place = Place::Time { recording: r, from: at - width, to: at + width };
@@ -154,7 +158,11 @@ fn in_recording(null: &Null, r: usize) -> Vec<Finding> {
         for h in 1..=HARMONICS {
             let first = MOMENTS + 1 + 2 * (h - 1);
             let strength = scores[first].hypot(scores[first + 1]);
-            let in_phase = if strength > 0.0 { phase_share(&scene, drive * h as f64, scores[first], scores[first + 1]) } else { 0.0 };
+            let in_phase = if strength > 0.0 {
+                phase_share(&scene, drive * h as f64, scores[first], scores[first + 1])
+            } else {
+                0.0
+            };
             found.push(Finding {
                 place: Place::Harmonic { recording: r, harmonic: h, drive, in_phase },
                 strength,

@@ -39,9 +39,8 @@ impl Null<'_> {
             (0..count + own).filter(|i| gram[(*i, *i)] > SMALLEST_SHARE * squares[*i]).collect();
         let scale: Vec<f64> = kept.iter().map(|i| 1.0 / gram[(*i, *i)].sqrt()).collect();
         let size = kept.len();
-        let correlation = nalgebra::DMatrix::from_fn(size, size, |a, b| {
-            gram[(kept[a], kept[b])] * scale[a] * scale[b]
-        });
+        let correlation =
+            nalgebra::DMatrix::from_fn(size, size, |a, b| gram[(kept[a], kept[b])] * scale[a] * scale[b]);
         let eigen = correlation.symmetric_eigen();
         let score = DVector::from_fn(size, |a, _| right[kept[a]] * scale[a]);
         let (mut gain, mut freedom) = (0.0, 0);

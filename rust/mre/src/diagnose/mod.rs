@@ -4,6 +4,8 @@
 //! predict. The base model is refitted together with every candidate, because its parameters bend
 //! to hide an effect.
 
+mod absorbed;
+mod alternatives;
 mod begin;
 mod candidates;
 mod distribution;
@@ -20,6 +22,8 @@ mod screen;
 mod search;
 mod verdict;
 
+pub use absorbed::Absorbed;
+pub use begin::Given;
 pub use candidates::Candidate;
 pub use intervals::{Estimate, Estimates};
 pub use least_squares::Fitted;

@@ -36,12 +36,25 @@ pub fn splits(recordings: &[&Recording], groups: &[Vec<usize>], by_blocks: bool)
     if by_blocks || groups.iter().any(|g| g.len() < FOLDS) {
         return (0..FOLDS).map(|fold| blocks(recordings, fold)).collect();
     }
+    let mut fold_of = vec![None; recordings.len()];
+    for group in groups {
+        // What is farthest and what is fastest always trains: a model is judged inside the tested range.
+        let extreme = |series: fn(&Recording) -> &[f64]| {
+            let size = |r: &usize| series(recordings[*r]).iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+            group.iter().copied().max_by(|a, b| size(a).total_cmp(&size(b)))
+        };
+        let kept = [extreme(Recording::displacement), extreme(Recording::velocity)];
+        let spare = group.len() > FOLDS + 1;
+        let judged = group.iter().filter(|r| !spare || !kept.contains(&Some(**r)));
+        for (place, r) in judged.enumerate() {
+            fold_of[*r] = Some(place % FOLDS);
+        }
+    }
     (0..FOLDS)
         .map(|fold| {
             let mut split = Split { train: Vec::new(), held_out: Vec::new() };
             for (r, recording) in recordings.iter().enumerate() {
-                let place = groups.iter().find_map(|g| g.iter().position(|m| *m == r)).unwrap_or(r);
-                let (out, whole) = (place % FOLDS == fold, vec![recording.scored()]);
+                let (out, whole) = (fold_of[r] == Some(fold), vec![recording.scored()]);
                 split.train.push(if out { Vec::new() } else { whole.clone() });
                 split.held_out.push(if out { whole } else { Vec::new() });
             }

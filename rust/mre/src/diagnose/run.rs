@@ -1,6 +1,8 @@
 //! The whole diagnosis.
 
-use super::begin::{Begun, begin};
+use super::absorbed::{Absorbed, absorbed};
+use super::alternatives::rivals;
+use super::begin::{Begun, Given, begin};
 use super::candidates::{by_effect, residuals};
 use super::intervals::{Estimates, estimates};
 use super::least_squares::{Data, Fitted, Point, refine};
@@ -25,6 +27,8 @@ pub struct Effect {
     pub held_out_before: f64,
     /// Held-out rms with it, N.
     pub held_out_after: f64,
+    /// Ids of effects that the recordings cannot tell from it.
+    pub rivals: Vec<&'static str>,
 }
 
 /// What a diagnosis found.
@@ -39,6 +43,8 @@ pub struct Diagnosis<'a> {
     pub evidence: Evidence,
     /// The effects, by how much each improves the held-out fit.
     pub effects: Vec<Effect>,
+    /// Effects that the recordings would hide.
+    pub absorbed: Vec<Absorbed>,
     /// Where the base model misses.
     pub places: Vec<Finding>,
     /// Parameters of the base alone.
@@ -58,13 +64,22 @@ pub struct Diagnosis<'a> {
 }
 
 /// Diagnose recordings with a base model.
-pub fn run<'a>(campaign: &'a Campaign, base: &'a Base, false_alarm: f64, seed: u64) -> Diagnosis<'a> {
+///
+/// `given` are effects that belong to the base.
+pub fn run<'a>(
+    campaign: &'a Campaign,
+    base: &'a Base,
+    given: &[Given],
+    false_alarm: f64,
+    seed: u64,
+) -> Diagnosis<'a> {
     let rows: Vec<Rows> = campaign.recordings().iter().map(|r| vec![r.scored()]).collect();
-    let begun = begin(campaign, base, &rows);
+    let begun = begin(campaign, base, given, &rows);
+    let own = begun.assembly.effects().len();
     let recordings: Vec<&Recording> = campaign.recordings().iter().map(AsRef::as_ref).collect();
     let groups: Vec<Vec<usize>> = match base {
         Base::Fitted(groups) => groups.iter().map(|g| g.members.clone()).collect(),
-        Base::Given(_) => vec![(0..recordings.len()).collect()],
+        Base::Held(_) | Base::Given(_) => vec![(0..recordings.len()).collect()],
     };
     let whole = splits(&recordings, &groups, false);
     let search = Search { begun: &begun, rows: &rows, splits: &whole, false_alarm, seed };
@@ -74,27 +89,29 @@ pub fn run<'a>(campaign: &'a Campaign, base: &'a Base, false_alarm: f64, seed: u
     let base_fit = refine(&begun.assembly, data, &begun.fitted.unit);
     let alone = null(&begun, data, &base_fit);
     let places = alone.as_ref().map_or_else(Vec::new, |n| locate(n, false_alarm));
-    let mismatch = |n: &Option<Null>| n.as_ref().map_or(Mismatch { p_value: 1.0, excess: 0.0 }, Null::mismatch);
+    let mismatch =
+        |n: &Option<Null>| n.as_ref().map_or(Mismatch { p_value: 1.0, excess: 0.0 }, Null::mismatch);
     let first = mismatch(&alone);
     let beside = Null::new(&named.assembly, data, &named.fitted.unit);
     let rest = mismatch(&beside);
-    drop(beside);
+    let absorbed = absorbed(&named, campaign, false_alarm);
     let explained = (base_fit.left - named.fitted.left).max(0.0);
     let evidence = Evidence::new(first, rest, explained, &named, rms_change(&named, data), false_alarm);
-    let verdict = evidence.verdict(named.assembly.effects().len());
+    let verdict = evidence.verdict(named.assembly.effects().len() - own);
     let sharp = named.assembly.effects().iter().any(|e| e.in_one_recording());
     let judged = if sharp { splits(&recordings, &groups, true) } else { whole.clone() };
     let before = prove(&begun.assembly, &named.noise, &judged, &base_fit);
     let after = prove(&named.assembly, &named.noise, &judged, &named.fitted);
-    let mut effects: Vec<Effect> = (0..named.assembly.effects().len())
+    let mut effects: Vec<Effect> = (own..named.assembly.effects().len())
         .map(|place| {
             let without = search.drop(&named, place);
             let proof = prove(&without.assembly, &named.noise, &judged, &without.fitted);
             Effect {
                 place,
-                p_value: named.p_values.get(place).copied().unwrap_or(0.0),
+                p_value: named.p_values.get(place - own).copied().unwrap_or(0.0),
                 held_out_before: proof.held_out_rms,
                 held_out_after: after.held_out_rms,
+                rivals: rivals(&search, &named, place, data),
             }
         })
         .collect();
@@ -111,6 +128,7 @@ pub fn run<'a>(campaign: &'a Campaign, base: &'a Base, false_alarm: f64, seed: u
         verdict,
         evidence,
         effects,
+        absorbed,
         places,
         base_estimates: estimates(&begun.assembly, data, &base_fit.unit),
         estimates: estimates(&named.assembly, data, &named.fitted.unit),
@@ -142,11 +160,7 @@ fn settle_reference(named: &mut Named, rows: &[Rows]) {
     }
     for _ in 0..3 {
         let data = Data { noise: &named.noise, rows };
-        let shapes = named.assembly.base_shapes();
-        let alone = named.assembly.with(Vec::new());
-        let unit = &named.fitted.unit[..shapes];
-        let coefficients = &named.fitted.coefficients[..named.assembly.base_coefficients()];
-        let force = alone.force(unit, coefficients);
+        let force = named.assembly.base_force(&named.fitted.unit, &named.fitted.coefficients);
         named.assembly = named.assembly.referring_to(force);
         named.fitted = refine(&named.assembly, data, &named.fitted.unit);
     }

@@ -40,11 +40,16 @@ pub struct Score {
     pub p_value: f64,
     /// Largest share of its columns' squares that the model's tangents do not absorb, over the starts.
     pub visible: f64,
+    /// Squared standard deviations that are left of it, per mean square in N^2 of the force that it adds, at
+    /// the start where that is most; with the root mean square in N that a unit of its first parameter adds.
+    pub trace: (f64, f64),
+    /// Number of tests that its starts amount to.
+    pub tests: f64,
 }
 
 /// Orthogonal complement of the tangents of a fitted model, by recording.
 pub(super) struct Null<'a> {
-    assembly: &'a Assembly<'a>,
+    assembly: Assembly<'a>,
     data: Data<'a>,
     point: Point,
     tangents: Vec<Vec<(usize, Vec<f64>)>>,
@@ -56,14 +61,15 @@ pub(super) struct Null<'a> {
 }
 
 impl<'a> Null<'a> {
-    pub(super) fn new(assembly: &'a Assembly<'a>, data: Data<'a>, unit: &[f64]) -> Option<Self> {
-        let point = Point::at(assembly, data, unit.to_vec());
+    pub(super) fn new(assembly: &Assembly<'a>, data: Data<'a>, unit: &[f64]) -> Option<Self> {
+        let assembly = assembly.knowing(&assembly.physical(unit));
+        let point = Point::at(&assembly, data, unit.to_vec());
         let count = point.fitted.coefficients.len() + unit.len();
         let tangents: Vec<Vec<(usize, Vec<f64>)>> = (0..point.recordings.len())
             .into_par_iter()
             .map(|r| {
                 let mut all = point.recordings[r].columns.clone();
-                all.extend(point.tangents(assembly, data, r));
+                all.extend(point.tangents(&assembly, data, r));
                 all
             })
             .collect();
@@ -77,9 +83,8 @@ impl<'a> Null<'a> {
                 }
             }
         }
-        let scale: Vec<f64> = (0..count)
-            .map(|i| if gram[(i, i)] > 0.0 { 1.0 / gram[(i, i)].sqrt() } else { 0.0 })
-            .collect();
+        let scale: Vec<f64> =
+            (0..count).map(|i| if gram[(i, i)] > 0.0 { 1.0 / gram[(i, i)].sqrt() } else { 0.0 }).collect();
         let scaled = DMatrix::from_fn(count, count, |i, j| {
             let unit = if i == j { 1e-11 + f64::from(u8::from(scale[i] == 0.0)) } else { 0.0 };
             gram[(i, j)] * scale[i] * scale[j] + unit
@@ -90,7 +95,7 @@ impl<'a> Null<'a> {
 
     /// The model whose tangents are projected off.
     pub(super) fn assembly(&self) -> &Assembly<'a> {
-        self.assembly
+        &self.assembly
     }
 
     /// What effects see of a recording.
@@ -145,8 +150,15 @@ impl<'a> Null<'a> {
         let own = if effect.of_the_measurement() { recordings } else { 1 };
         let width = (coefficients.len() * own).max(1);
         let joint = self.with(effect);
-        let (gram, right, squares) =
-            self.project(width * starts.len(), |r| self.columns(&joint, effect, &starts, width, r));
+        let mut raw = vec![0.0; width * starts.len()];
+        let (gram, right, squares) = self.project(width * starts.len(), |r| {
+            let columns = self.columns(&joint, effect, &starts, width, r);
+            for (i, column) in &columns {
+                raw[*i] += dot(column, column);
+            }
+            columns
+        });
+        let samples: usize = self.point.recordings.iter().map(|l| l.force.len()).sum();
         let block = |s: usize| {
             let g = gram.view((s * width, s * width), (width, width)).into_owned();
             (g, (0..width).map(|k| squares[s * width + k]).collect::<Vec<_>>())
@@ -167,14 +179,20 @@ impl<'a> Null<'a> {
         let visible = blocks.iter().map(|b| b.visible).fold(0.0, f64::max);
         let part = |v: &DVector<f64>, s: usize| v.rows(s * width, width).into_owned();
         let gains: Vec<f64> = (0..starts.len()).map(|s| blocks[s].gain(&part(&right, s))).collect();
-        let (best, gain) = gains
-            .iter()
-            .copied()
-            .enumerate()
-            .max_by(|a, b| a.1.total_cmp(&b.1))
-            .filter(|(s, _)| blocks[*s].visible >= SMALLEST_SHARE)?;
+        let (best, gain) = gains.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
         let smallest = (0..starts.len()).map(|s| blocks[s].tail(gains[s])).fold(1.0, f64::min);
         let correction = correction(&gram, &blocks, width, seed);
+        let trace = (0..raw.len())
+            .filter(|i| raw[*i] > 0.0)
+            .map(|i| {
+                let mean_square = raw[i] / samples as f64;
+                let unit = if coefficients.is_empty() { starts[i / width].first().copied() } else { None };
+                let share = gram[(i, i)] / squares[i];
+                let left = if share < SMALLEST_SHARE { 0.0 } else { gram[(i, i)] / mean_square };
+                (left, mean_square.sqrt() / unit.unwrap_or(1.0).abs())
+            })
+            .max_by(|a, b| a.0.total_cmp(&b.0))
+            .unwrap_or((0.0, 0.0));
         Some(Score {
             effect,
             start: starts[best].clone(),
@@ -182,6 +200,8 @@ impl<'a> Null<'a> {
             freedom: width,
             p_value: (correction * smallest).min(1.0),
             visible,
+            trace,
+            tests: correction,
         })
     }
 

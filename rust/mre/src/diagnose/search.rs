@@ -20,6 +20,10 @@ use crate::effect::{CATALOGUE, Effect};
 
 /// Most effects that are named.
 const MOST: usize = 4;
+/// Candidates that are refitted jointly.
+pub(super) const REFITTED: usize = 12;
+/// The same where only the best is wanted, roughly.
+const FEW: usize = 4;
 /// Candidates for the first of a pair.
 const FIRSTS: usize = 5;
 /// A further effect lowers the held-out rms by more than this share of the noise's rms.
@@ -60,11 +64,11 @@ impl<'a> Search<'_, 'a> {
     pub(super) fn run(&self) -> Named<'a> {
         let mut here = self.look(self.begun.assembly.clone(), &self.begun.fitted.unit, &self.begun.noise);
         let mut removed_by_first = None;
-        while here.assembly.effects().len() < MOST {
+        while self.found(&here) < MOST {
             let Some((p_value, next)) = self.significant(&here) else { break };
             let mut wider = self.look(next.assembly.clone(), &next.fitted.unit, &here.noise);
             wider.p_values = here.p_values.iter().copied().chain([p_value]).collect();
-            if here.assembly.effects().is_empty() {
+            if self.found(&here) == 0 {
                 wider = self.best_law(wider);
                 if let Some((_, second)) = self.significant(&wider) {
                     wider = self.best_first(&here, wider, &second);
@@ -83,26 +87,29 @@ impl<'a> Search<'_, 'a> {
         self.without_the_needless(here)
     }
 
-    /// Score the catalogue beside a model, twice: the second time with the noise that the best candidate of
-    /// the first leaves.
+    /// Number of effects that belong to the base.
+    fn given(&self) -> usize {
+        self.begun.assembly.effects().len()
+    }
+
+    /// Number of effects that were found.
+    fn found(&self, named: &Named) -> usize {
+        named.assembly.effects().len() - self.given()
+    }
+
+    /// Score the catalogue beside a model, with the noise that the best of a few candidates leaves.
     fn look(&self, assembly: Assembly<'a>, unit: &[f64], noise: &Noise) -> Named<'a> {
-        let mut noise = noise.clone();
-        let mut unit = unit.to_vec();
-        for _ in 0..2 {
-            let data = Data { noise: &noise, rows: self.rows };
-            let fitted = refine(&assembly, data, &unit);
-            let found = scores(&assembly, data, &fitted.unit, self.seed);
-            let best = candidates(&assembly, data, &fitted.unit, &found).into_iter().next();
-            noise = match &best {
-                Some(best) => noise_left(&best.assembly, data, &best.fitted),
-                None => noise_left(&assembly, data, &fitted),
-            };
-            unit = fitted.unit;
-        }
+        let data = Data { noise, rows: self.rows };
+        let first = refine(&assembly, data, unit);
+        let found = scores(&assembly, data, &first.unit, self.seed);
+        let noise = match candidates(&assembly, data, &first.unit, &found, FEW).first() {
+            Some(best) => noise_left(&best.assembly, data, &best.fitted),
+            None => noise_left(&assembly, data, &first),
+        };
         let data = Data { noise: &noise, rows: self.rows };
-        let fitted = refine(&assembly, data, &unit);
+        let fitted = refine(&assembly, data, &first.unit);
         let found = scores(&assembly, data, &fitted.unit, self.seed);
-        let next = candidates(&assembly, data, &fitted.unit, &found).into_iter().next();
+        let next = candidates(&assembly, data, &fitted.unit, &found, REFITTED).into_iter().next();
         Named { assembly, fitted, noise, scores: found, next, p_values: Vec::new() }
     }
 
@@ -129,7 +136,7 @@ impl<'a> Search<'_, 'a> {
     /// The same effects, each with the law that leaves least.
     fn best_law(&self, named: Named<'a>) -> Named<'a> {
         let mut best = named;
-        for place in 0..best.assembly.effects().len() {
+        for place in self.given()..best.assembly.effects().len() {
             let known = best.assembly.effects()[place];
             let others = CATALOGUE.iter().copied().filter(|e| {
                 e.about().effect == known.about().effect
@@ -189,11 +196,12 @@ impl<'a> Search<'_, 'a> {
     /// the best single effect.
     fn best_first(&self, before: &Named<'a>, single: Named<'a>, second: &Candidate<'a>) -> Named<'a> {
         let data = Data { noise: &single.noise, rows: self.rows };
-        let known = single.assembly.effects()[0].about().effect;
+        let given = self.given();
+        let known = single.assembly.effects()[given].about().effect;
         let mut firsts: Vec<Candidate> = Vec::new();
-        for candidate in candidates(&before.assembly, data, &before.fitted.unit, &before.scores) {
-            let id = candidate.assembly.effects()[0].about().effect;
-            let seen = firsts.iter().any(|f| f.assembly.effects()[0].about().effect == id);
+        for candidate in candidates(&before.assembly, data, &before.fitted.unit, &before.scores, REFITTED) {
+            let id = candidate.assembly.effects()[given].about().effect;
+            let seen = firsts.iter().any(|f| f.assembly.effects()[given].about().effect == id);
             if id != known && !seen && firsts.len() < FIRSTS {
                 firsts.push(candidate);
             }
@@ -202,7 +210,8 @@ impl<'a> Search<'_, 'a> {
             .into_par_iter()
             .filter_map(|first| {
                 let found = scores(&first.assembly, data, &first.fitted.unit, self.seed);
-                let best = candidates(&first.assembly, data, &first.fitted.unit, &found).into_iter().next()?;
+                let best =
+                    candidates(&first.assembly, data, &first.fitted.unit, &found, FEW).into_iter().next()?;
                 Some((first, best))
             })
             .collect();
@@ -232,16 +241,16 @@ impl<'a> Search<'_, 'a> {
     /// Remove effects that the others make unnecessary.
     fn without_the_needless(&self, named: Named<'a>) -> Named<'a> {
         let mut here = named;
-        let mut place = 0;
-        while here.assembly.effects().len() > 1 && place < here.assembly.effects().len() {
+        let mut place = self.given();
+        while self.found(&here) > 1 && place < here.assembly.effects().len() {
             let now = Candidate { assembly: here.assembly.clone(), fitted: here.fitted.clone() };
             let without = self.drop(&here, place);
             if without.criterion() < now.criterion() {
                 let mut p_values = here.p_values.clone();
-                p_values.remove(place);
+                p_values.remove(place - self.given());
                 here = self.look(without.assembly, &without.fitted.unit, &here.noise);
                 here.p_values = p_values;
-                place = 0;
+                place = self.given();
             } else {
                 place += 1;
             }

@@ -1,58 +1,83 @@
-//! Maxwell relaxation: a spring and a dashpot in series, beside the base model.
+//! Maxwell relaxation: springs and dashpots in series, beside the base model.
 //!
 //! | symbol | meaning | unit | range |
 //! |---|---|---|---|
-//! | `k_m` | stiffness of the branch | N/mm | >= 0 |
-//! | tau | relaxation time | s | two samples to a third of the longest recording |
+//! | `k_m`, `k_1`, `k_2` | stiffness of a branch | N/mm | >= 0 |
+//! | tau, `tau_1`, `tau_2` | relaxation time of a branch | s | two samples to a third of the longest recording |
 //!
 //! Integrated exactly for a velocity that is linear between samples.
+//! Reference: Ferry, Viscoelastic Properties of Polymers, 1980.
+//! Known limit: at one steady frequency a branch is part of k0 and c0.
 
+use super::operators::lag;
 use super::{About, Effect, Scene, Sizes, order_within, orders, positive};
 use crate::parameter::Parameter;
 
-/// One Maxwell branch.
-#[derive(Debug, Clone, Copy)]
-pub struct Maxwell;
+/// One branch or two.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Maxwell {
+    /// One relaxation time.
+    One,
+    /// Two relaxation times.
+    Two,
+}
 
 /// `z' = v - z / tau` from rest.
-pub(crate) fn branch(scene: &Scene, tau: f64) -> Vec<f64> {
-    let (time, v) = (scene.time, scene.velocity);
-    scene.trace(0.0, |z, i| {
-        let h = (time[i] - time[i - 1]) / tau;
-        let decay = (-h).exp();
-        // Weights of the velocities at both ends of the step.
-        let whole = -(-h).exp_m1();
-        let late = tau * (1.0 - whole / h);
-        let early = tau * whole - late;
-        decay * z + early * v[i - 1] + late * v[i]
-    })
+pub(super) fn branch(scene: &Scene, tau: f64) -> Vec<f64> {
+    let mut z = lag(scene.time, scene.velocity, tau, 0.0);
+    z.iter_mut().for_each(|z| *z *= tau);
+    z
 }
 
 impl Effect for Maxwell {
     fn about(&self) -> About {
-        About {
+        let one = About {
             effect: "maxwell_relaxation",
             law: "one branch",
             plain: "part of the stiffness relaxes with time (a spring and a dashpot in series)",
             equation: "dF_m/dt = k_m v - F_m/tau",
             reference: "Maxwell 1867; Ferry, Viscoelastic Properties of Polymers, 1980",
             limit: "at one steady frequency it is part of k0 and c0, at any number of amplitudes",
+        };
+        match self {
+            Self::One => one,
+            Self::Two => About {
+                law: "two branches",
+                plain: "part of the stiffness relaxes with time, with two relaxation times",
+                equation: "dF_i/dt = k_i v - F_i/tau_i, i = 1, 2",
+                ..one
+            },
         }
     }
 
     fn coefficients(&self) -> Vec<Parameter> {
-        vec![positive("k_m", "N/mm")]
+        match self {
+            Self::One => vec![positive("k_m", "N/mm")],
+            Self::Two => vec![positive("k_1", "N/mm"), positive("k_2", "N/mm")],
+        }
     }
 
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
-        vec![order_within("tau", "s", 2.0 * sizes.step, sizes.duration / 3.0)]
+        let tau = |name| order_within(name, "s", 2.0 * sizes.step, sizes.duration / 3.0);
+        match self {
+            Self::One => vec![tau("tau")],
+            Self::Two => vec![tau("tau_1"), tau("tau_2")],
+        }
     }
 
     fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
-        orders(2.0 * sizes.step, sizes.duration / 3.0, 9).into_iter().map(|tau| vec![tau]).collect()
+        let taus = |count| orders(2.0 * sizes.step, sizes.duration / 3.0, count);
+        match self {
+            Self::One => taus(9).into_iter().map(|tau| vec![tau]).collect(),
+            Self::Two => {
+                let taus = taus(5);
+                let pairs = (0..taus.len()).flat_map(|j| (0..j).map(move |i| (i, j)));
+                pairs.map(|(i, j)| vec![taus[i], taus[j]]).collect()
+            }
+        }
     }
 
     fn columns(&self, scene: &Scene, shape: &[f64]) -> Vec<Vec<f64>> {
-        vec![branch(scene, shape[0])]
+        shape.iter().map(|tau| branch(scene, *tau)).collect()
     }
 }

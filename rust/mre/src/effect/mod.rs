@@ -8,11 +8,13 @@
 
 mod catalogue;
 mod delay;
+mod initial_state;
 mod maxwell;
 mod payne;
 mod scene;
 
 pub use catalogue::{CATALOGUE, named};
+pub use initial_state::{InitialState, starts_in_motion};
 pub use scene::{Scene, Sizes};
 
 use crate::parameter::{Parameter, Scale};

@@ -1,0 +1,71 @@
+//! Coulomb friction: a force of constant size against the motion.
+//!
+//! | symbol | meaning | unit | range |
+//! |---|---|---|---|
+//! | `F_c` | friction force | N | >= 0 |
+//! | `z_y` | pre-sliding displacement (Dahl) | mm | 0.01 % to 5 % of the largest stroke |
+//! | `v_s` | velocity over which the sign is smoothed | mm/s | 0.2 % to 5 % of the largest speed |
+//!
+//! Dahl's element is integrated exactly in the displacement.
+//! Reference: Dahl, Aerospace Corporation TOR-0158(3107-18)-1, 1968.
+//! Known limit: where all strokes are long against `z_y`, its value is not determined.
+
+use super::operators::{dahl, each};
+use super::{About, Effect, Scene, Sizes, order_within, positive};
+use crate::parameter::Parameter;
+
+/// How the sign of the velocity is smoothed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Coulomb {
+    /// Over a displacement.
+    Dahl,
+    /// Over a velocity.
+    Smoothed,
+}
+
+impl Effect for Coulomb {
+    fn about(&self) -> About {
+        let dahl = About {
+            effect: "coulomb_friction",
+            law: "Dahl",
+            plain: "dry friction of constant size acts against the motion",
+            equation: "F_f = F_c z, dz/dt = v (1 - z sgn v)/z_y",
+            reference: "Coulomb 1785; Dahl 1968",
+            limit: "at one amplitude and one frequency it is close to quadratic_damping with a small power",
+        };
+        match self {
+            Self::Dahl => dahl,
+            Self::Smoothed => About { law: "smoothed sign", equation: "F_f = F_c tanh(v/v_s)", ..dahl },
+        }
+    }
+
+    fn coefficients(&self) -> Vec<Parameter> {
+        vec![positive("F_c", "N")]
+    }
+
+    fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
+        match self {
+            Self::Dahl => {
+                vec![order_within("z_y", "mm", 1e-4 * sizes.displacement, 0.05 * sizes.displacement)]
+            }
+            Self::Smoothed => {
+                vec![order_within("v_s", "mm/s", 0.002 * sizes.velocity, 0.05 * sizes.velocity)]
+            }
+        }
+    }
+
+    fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
+        let (shares, size): (&[f64], f64) = match self {
+            Self::Dahl => (&[0.001, 0.004, 0.012, 0.035], sizes.displacement),
+            Self::Smoothed => (&[0.003, 0.01, 0.035], sizes.velocity),
+        };
+        shares.iter().map(|share| vec![share * size]).collect()
+    }
+
+    fn columns(&self, scene: &Scene, shape: &[f64]) -> Vec<Vec<f64>> {
+        vec![match self {
+            Self::Dahl => dahl(scene, shape[0]),
+            Self::Smoothed => each(scene.velocity, |v| (v / shape[0]).tanh()),
+        }]
+    }
+}

@@ -1,0 +1,61 @@
+//! Initial state: a recording that starts in motion starts with unknown states of everything with memory.
+//!
+//! No effect of the catalogue, but a part of the model of such a recording: what is left of the unknown
+//! states decays, here as a sum of exponentials with free coefficients in every recording.
+
+use super::{About, Effect, Scene, Sizes, signed};
+use crate::parameter::Parameter;
+use crate::recording::Recording;
+
+/// Decay times, s.
+const DECAYS: [f64; 4] = [0.03, 0.15, 0.7, 3.0];
+/// A recording starts at rest where its first speed and displacement are below this share of its largest.
+const REST: f64 = 0.05;
+
+/// Decaying remainders of unknown initial states.
+#[derive(Debug, Clone, Copy)]
+pub struct InitialState;
+
+/// True where a recording starts in motion or away from its middle.
+pub fn starts_in_motion(recording: &Recording) -> bool {
+    let share = |series: &[f64], first: f64| {
+        let far = series.iter().fold(0.0_f64, |far, v| far.max(v.abs()));
+        first.abs() > REST * far
+    };
+    let (x, v) = (recording.displacement(), recording.velocity());
+    share(x, x[0]) || share(v, v[0])
+}
+
+impl Effect for InitialState {
+    fn about(&self) -> About {
+        About {
+            effect: "initial_state",
+            law: "decaying",
+            plain: "the recording starts in motion, with unknown internal states",
+            equation: "F += sum_i a_i exp(-t/t_i)",
+            reference: "general",
+            limit: "slow decays are drift",
+        }
+    }
+
+    fn coefficients(&self) -> Vec<Parameter> {
+        (1..=DECAYS.len()).map(|i| signed(&format!("a_{i}"), "N")).collect()
+    }
+
+    fn shape(&self, _: &Sizes) -> Vec<Parameter> {
+        Vec::new()
+    }
+
+    fn starts(&self, _: &Sizes) -> Vec<Vec<f64>> {
+        vec![Vec::new()]
+    }
+
+    fn columns(&self, scene: &Scene, _: &[f64]) -> Vec<Vec<f64>> {
+        let start = scene.time[0];
+        DECAYS.iter().map(|d| scene.time.iter().map(|t| (-(t - start) / d).exp()).collect()).collect()
+    }
+
+    fn of_the_measurement(&self) -> bool {
+        true
+    }
+}

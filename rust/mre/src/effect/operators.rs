@@ -1,0 +1,90 @@
+//! Operators on series that several laws share: first-order lag, play, Dahl's element, integrals.
+
+use super::Scene;
+
+/// Steps that differ by less than this share of themselves count as equal.
+const SAME_STEP: f64 = 1e-9;
+
+/// `y' = (u - y) / tau` from `start`: exact for an input that is linear between samples.
+pub(super) fn lag(time: &[f64], input: &[f64], tau: f64, start: f64) -> Vec<f64> {
+    let (mut step, mut decay, mut early, mut late) = (0.0_f64, 1.0, 0.0, 0.0);
+    let mut y = start;
+    let mut out = Vec::with_capacity(input.len());
+    out.push(y);
+    for i in 1..input.len() {
+        let own = time[i] - time[i - 1];
+        if (own - step).abs() > SAME_STEP * own {
+            step = own;
+            let h = step / tau;
+            let whole = -(-h).exp_m1();
+            decay = 1.0 - whole;
+            late = 1.0 - whole / h;
+            early = whole - late;
+        }
+        y = decay * y + early * input[i - 1] + late * input[i];
+        out.push(y);
+    }
+    out
+}
+
+/// Play of half width `r`: follows the input once the slack is taken up.
+pub(super) fn play(input: &[f64], r: f64) -> Vec<f64> {
+    let mut p = input[0];
+    input
+        .iter()
+        .map(|x| {
+            p = p.max(x - r).min(x + r);
+            p
+        })
+        .collect()
+}
+
+/// Stop of height `r`, an elastic-perfectly-plastic element of stiffness one: input less its play.
+pub(super) fn stop(input: &[f64], r: f64) -> Vec<f64> {
+    play(input, r).into_iter().zip(input).map(|(p, x)| x - p).collect()
+}
+
+/// Dahl's element, `z' = v (1 - z sgn v) / z_y` from rest: a smooth sign of the velocity.
+pub(super) fn dahl(scene: &Scene, z_y: f64) -> Vec<f64> {
+    let (time, v) = (scene.time, scene.velocity);
+    let moved = |z: f64, dx: f64| {
+        let side = sign(dx);
+        side + (z - side) * (-dx.abs() / z_y).exp()
+    };
+    scene.trace(0.0, |z, i| {
+        let (h, a, b) = (0.5 * (time[i] - time[i - 1]), v[i - 1], v[i]);
+        if a * b < 0.0 {
+            // The velocity turns within the step: both ways count.
+            let turn = a / (a - b);
+            moved(moved(z, h * a * turn), h * b * (1.0 - turn))
+        } else {
+            moved(z, h * (a + b))
+        }
+    })
+}
+
+/// -1, 0 or 1.
+pub(super) fn sign(value: f64) -> f64 {
+    if value == 0.0 { 0.0 } else { value.signum() }
+}
+
+/// Integral of a rate from the first sample, by trapezia.
+pub(super) fn integral(scene: &Scene, rate: impl Fn(usize) -> f64) -> Vec<f64> {
+    scene.trace(0.0, |sum, i| sum + 0.5 * (scene.time[i] - scene.time[i - 1]) * (rate(i - 1) + rate(i)))
+}
+
+/// Central differences.
+pub(super) fn slope(time: &[f64], series: &[f64]) -> Vec<f64> {
+    let last = series.len() - 1;
+    (0..=last)
+        .map(|i| {
+            let (a, b) = (i.saturating_sub(1), (i + 1).min(last));
+            (series[b] - series[a]) / (time[b] - time[a])
+        })
+        .collect()
+}
+
+/// Every value of a series, changed.
+pub(super) fn each(series: &[f64], change: impl Fn(f64) -> f64) -> Vec<f64> {
+    series.iter().map(|v| change(*v)).collect()
+}

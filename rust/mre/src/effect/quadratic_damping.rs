@@ -1,0 +1,80 @@
+//! Quadratic damping: viscous damping whose power of the velocity is not one.
+//!
+//! | symbol | meaning | unit | range |
+//! |---|---|---|---|
+//! | `c_p`, p | coefficient and power | N (s/mm)^p, - | >= 0, 0.2 to 3 |
+//! | `c_2` | coefficient of the square | N s^2/mm^2 | >= 0 |
+//! | `F_e`, `v_e` | force and velocity of Eyring's flow | N, mm/s | >= 0, 3 % to 100 % of the largest speed |
+//!
+//! Reference: Crandall, J. Sound Vib. 11 (1970) 3 (damping laws); Eyring, J. Chem. Phys. 4 (1936) 283.
+//! Known limit: at one steady sine it cannot be told from friction or hysteresis.
+
+use super::operators::{each, sign};
+use super::{About, Effect, Scene, Sizes, order_within, positive, within};
+use crate::parameter::Parameter;
+
+/// Form of the damping law.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum QuadraticDamping {
+    /// `|v| v`.
+    Square,
+    /// Any power.
+    Power,
+    /// `asinh(v/v_e)`.
+    Eyring,
+}
+
+impl Effect for QuadraticDamping {
+    fn about(&self) -> About {
+        let square = About {
+            effect: "quadratic_damping",
+            law: "square",
+            plain: "the damping force is not proportional to the velocity",
+            equation: "F_d = c_2 |v| v",
+            reference: "Crandall 1970",
+            limit: "at one steady sine it cannot be told from friction or hysteresis",
+        };
+        match self {
+            Self::Square => square,
+            Self::Power => About { law: "power", equation: "F_d = c_p |v|^p sgn v", ..square },
+            Self::Eyring => About {
+                law: "Eyring",
+                equation: "F_d = F_e asinh(v/v_e)",
+                reference: "Eyring 1936",
+                ..square
+            },
+        }
+    }
+
+    fn coefficients(&self) -> Vec<Parameter> {
+        match self {
+            Self::Square => vec![positive("c_2", "N s^2/mm^2")],
+            Self::Power => vec![positive("c_p", "N (s/mm)^p")],
+            Self::Eyring => vec![positive("F_e", "N")],
+        }
+    }
+
+    fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
+        match self {
+            Self::Square => Vec::new(),
+            Self::Power => vec![within("p", "", 0.2, 3.0)],
+            Self::Eyring => vec![order_within("v_e", "mm/s", 0.03 * sizes.velocity, sizes.velocity)],
+        }
+    }
+
+    fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
+        match self {
+            Self::Square => vec![Vec::new()],
+            Self::Power => [0.3, 0.5, 0.7, 1.5, 2.0, 2.5, 3.0].iter().map(|p| vec![*p]).collect(),
+            Self::Eyring => [0.05, 0.15, 0.5].iter().map(|share| vec![share * sizes.velocity]).collect(),
+        }
+    }
+
+    fn columns(&self, scene: &Scene, shape: &[f64]) -> Vec<Vec<f64>> {
+        vec![each(scene.velocity, |v| match self {
+            Self::Square => v.abs() * v,
+            Self::Power => v.abs().powf(shape[0]) * sign(v),
+            Self::Eyring => (v / shape[0]).asinh(),
+        })]
+    }
+}
