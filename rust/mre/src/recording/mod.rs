@@ -1,0 +1,139 @@
+//! A validated recording of a device: time, displacement, velocity, force, current, temperature.
+//!
+//! Units: millimetre, newton, second, ampere, degree Celsius.
+
+mod check;
+mod condition;
+mod part;
+
+use std::ops::Range;
+
+pub use condition::Condition;
+
+use crate::error::Result;
+use crate::velocity;
+
+/// Fewest samples from which a velocity and five parameters can be told.
+pub const MIN_SAMPLES: usize = 8;
+
+/// What a recording is made from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Series {
+    /// Time in s, strictly increasing; need not be uniform.
+    pub time: Vec<f64>,
+    /// Displacement in mm.
+    pub displacement: Vec<f64>,
+    /// Velocity in mm/s; `None`: derived from the displacement.
+    pub velocity: Option<Vec<f64>>,
+    /// Restoring force in N; `None` for an excitation to simulate.
+    pub force: Option<Vec<f64>>,
+    /// Force of a user's own simulation in N.
+    pub simulated: Option<Vec<f64>>,
+    /// Coil current in A.
+    pub current: Condition,
+    /// Temperature in degC.
+    pub temperature: Condition,
+    /// Name in messages and tables.
+    pub name: String,
+}
+
+/// A recording that passed every check. Immutable.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Recording {
+    series: Series,
+    velocity: Vec<f64>,
+    velocity_window: Option<f64>,
+    scored: Range<usize>,
+}
+
+impl Recording {
+    /// Check the series and derive the velocity where it is missing.
+    ///
+    /// # Errors
+    /// Different lengths, fewer than [`MIN_SAMPLES`], a value that is not finite, time that does not
+    /// increase, or a displacement that never changes.
+    pub fn new(mut series: Series) -> Result<Self> {
+        let name = series.name.clone();
+        check::series(&series).map_err(|error| error.in_recording(&name))?;
+        let (velocity, velocity_window) = if let Some(measured) = series.velocity.take() {
+            (measured, None)
+        } else {
+            let derived = velocity::from_displacement(&series.time, &series.displacement);
+            (derived.velocity, Some(derived.window))
+        };
+        let scored = 0..velocity.len();
+        Ok(Self { series, velocity, velocity_window, scored })
+    }
+
+    /// Number of samples.
+    pub fn len(&self) -> usize {
+        self.velocity.len()
+    }
+
+    /// Never true: a recording has at least [`MIN_SAMPLES`] samples.
+    pub fn is_empty(&self) -> bool {
+        self.velocity.is_empty()
+    }
+
+    /// Time in s.
+    pub fn time(&self) -> &[f64] {
+        &self.series.time
+    }
+
+    /// Displacement in mm.
+    pub fn displacement(&self) -> &[f64] {
+        &self.series.displacement
+    }
+
+    /// Velocity in mm/s, measured or derived.
+    pub fn velocity(&self) -> &[f64] {
+        &self.velocity
+    }
+
+    /// Force in N, if the recording has one.
+    pub fn force(&self) -> Option<&[f64]> {
+        self.series.force.as_deref()
+    }
+
+    /// Force of a user's own simulation in N, if there is one.
+    pub fn simulated(&self) -> Option<&[f64]> {
+        self.series.simulated.as_deref()
+    }
+
+    /// Coil current in A.
+    pub fn current(&self) -> &Condition {
+        &self.series.current
+    }
+
+    /// Temperature in degC.
+    pub fn temperature(&self) -> &Condition {
+        &self.series.temperature
+    }
+
+    /// Name in messages and tables.
+    pub fn name(&self) -> &str {
+        &self.series.name
+    }
+
+    /// Length in s of the window from which the velocity was derived; `None` where it was measured.
+    pub fn velocity_window(&self) -> Option<f64> {
+        self.velocity_window
+    }
+
+    /// Samples per second, from the median time step.
+    pub fn sampling_rate(&self) -> f64 {
+        let mut steps: Vec<f64> = self.series.time.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        steps.sort_by(f64::total_cmp);
+        1.0 / steps[steps.len() / 2]
+    }
+}
+
+/// Arithmetic mean.
+pub(crate) fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// Smallest and largest value.
+pub(crate) fn extent(values: &[f64]) -> (f64, f64) {
+    values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(*v), high.max(*v)))
+}
