@@ -1,10 +1,4 @@
-//! Linear least squares within a box, on a triangular factor: the linear coefficients of a model, given
-//! its nonlinear parameters.
-//!
-//! Active set (Stark and Parker 1995, Computational Statistics 10, 129-141): the free coefficients are
-//! solved with the others on their bounds; one that would leave its bounds is stopped there, and one
-//! that a bound holds against the slope is freed. The answer is exact to rounding.
-//! A column that depends on the others keeps its coefficient where it is.
+//! The search, on a triangular factor of the columns: no digits are lost to sums of products.
 
 /// Columns with less than this share of their length outside the span of the others depend on them.
 const DEPENDENT: f64 = 1e-14;
@@ -14,7 +8,7 @@ const FLAT: f64 = 1e-14;
 /// The coefficients u within the bounds at which `||R u - g||` is least; R is upper triangular.
 ///
 /// Where R does not decide them all, those stay as near to zero as the search left them.
-pub(crate) fn bounded<const N: usize>(
+pub(crate) fn minimise<const N: usize>(
     r: &[[f64; N]; N],
     g: &[f64; N],
     lower: &[f64; N],
@@ -215,7 +209,7 @@ mod tests {
                 r[2] = [0.0, 0.0, 0.0, r[2][3]];
             }
             let high = std::array::from_fn(|j| low[j] + width[j]);
-            let u = bounded(&r, &g, &low, &high);
+            let u = minimise(&r, &g, &low, &high);
             prop_assert!((0..N).all(|j| u[j] >= low[j] && u[j] <= high[j]));
             let (got, wanted) = (cost(&r, &g, &u), by_faces(&r, &g, &low, &high));
             prop_assert!(got <= wanted * (1.0 + 1e-10) + 1e-20, "{got} {wanted}");
@@ -227,13 +221,13 @@ mod tests {
         let r = triangle(&[2.0, 1.0, 0.5, 0.1, 0.0, 3.0, 1.0, 0.2, 0.0, 0.0, 1.0, 0.3, 0.0, 0.0, 0.0, 0.7]);
         let truth = [0.3, -0.2, 0.9, -0.5];
         let g = std::array::from_fn(|i| (0..N).map(|k| r[i][k] * truth[k]).sum());
-        let u = bounded(&r, &g, &[-1.0; N], &[1.0; N]);
+        let u = minimise(&r, &g, &[-1.0; N], &[1.0; N]);
         assert!((0..N).all(|j| (u[j] - truth[j]).abs() < 1e-15));
     }
 
     #[test]
     fn nothing_is_decided_by_a_zero_column() {
-        let u = bounded(&[[1.0, 0.0], [0.0, 0.0]], &[0.5, 2.0], &[0.0, 3.0], &[1.0, 4.0]);
+        let u = minimise(&[[1.0, 0.0], [0.0, 0.0]], &[0.5, 2.0], &[0.0, 3.0], &[1.0, 4.0]);
         assert_eq!(u, [0.5, 3.0]);
     }
 }
