@@ -230,7 +230,7 @@ fn other_problems_are_named() {
     let wrong = problem("bouc_wen", &[example().recording()], &[], &Weights::Samples);
     assert_eq!(
         exact(&wrong).unwrap_err().to_string(),
-        "model is 'bouc_wen': the exact optimum is known for kelvin_voigt and sinh"
+        "model is 'bouc_wen': a proven optimum exists for kelvin_voigt and sinh only"
     );
     let still = example().recording();
     let current = (0..still.len()).map(|i| if i < 500 { 0.0 } else { 2.0 }).collect();

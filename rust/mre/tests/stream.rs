@@ -150,12 +150,10 @@ fn what_cannot_be_is_said() {
     let refused = |x: &[f64], v: &[f64], f: &[f64]| {
         let mut stream = Stream::new(2.0, &[]).unwrap();
         stream.absorb(&[0.0, 1.0], &[0.0, 1.0], &[0.0, 1.0]).unwrap();
-        stream
-            .absorb(x, v, f)
-            .map(|()| stream.into_problem().map(|_| ()))
-            .unwrap_or_else(Err)
-            .unwrap_err()
-            .to_string()
+        match stream.absorb(x, v, f) {
+            Ok(()) => stream.into_problem().unwrap_err().to_string(),
+            Err(error) => error.to_string(),
+        }
     };
     assert_eq!(
         refused(&[0.0, 3.0], &[0.0; 2], &[0.0; 2]),

@@ -18,24 +18,22 @@ pub(super) fn choose(
         };
         (parameters[i].lower, parameters[i].upper) = (*lower, *upper);
     }
+    let refused = |p: &Parameter, wanted: String| {
+        Err(Error::setting(format!("bound of {}", p.name), format!("{}:{}", p.lower, p.upper), wanted))
+    };
+    if let Some(p) = parameters.iter().find(|p| p.lower < p.smallest || p.upper > p.largest) {
+        return refused(p, format!("within {} and {}", p.smallest, p.largest));
+    }
     let names: Vec<String> = parameters.iter().map(|p| p.name.clone()).collect();
     let pick = |value: fn(&Parameter) -> f64| parameters.iter().map(value).collect();
     let scale = parameters.iter().map(|p| p.scale).collect();
     let bounds = Bounds::new(&names, pick(|p| p.lower), pick(|p| p.upper), scale)?;
-    for p in parameters {
-        let wanted = if p.lower < p.smallest || p.upper > p.largest {
-            format!("within {} and {}", p.smallest, p.largest)
-        } else if p.name == "beta" && p.upper * displacement > SINH_LARGEST {
-            let most = SINH_LARGEST / displacement;
-            format!("at most {most} 1/mm, above which sinh overflows at the largest displacement")
-        } else {
-            continue;
-        };
-        return Err(Error::setting(
-            format!("bound of {}", p.name),
-            format!("{}:{}", p.lower, p.upper),
-            wanted,
-        ));
+    let most = SINH_LARGEST / displacement;
+    match parameters.iter().find(|p| p.name == "beta" && p.upper > most) {
+        Some(beta) => refused(
+            beta,
+            format!("at most {most} 1/mm, above which sinh overflows at the largest displacement"),
+        ),
+        None => Ok(bounds),
     }
-    Ok(bounds)
 }

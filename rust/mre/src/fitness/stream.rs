@@ -43,7 +43,7 @@ impl Stream {
     ///
     /// # Errors
     /// A largest displacement that is not positive, or bounds as in [`Problem::new`] that cannot be; a
-    /// beta beyond about 25 / `largest_displacement`, which would need every sample.
+    /// beta beyond 25 / `largest_displacement`, which would need every sample.
     pub fn new(largest_displacement: f64, bounds: &[(String, f64, f64)]) -> Result<Self> {
         if !(largest_displacement.is_finite() && largest_displacement > 0.0) {
             let wanted = "a positive number of mm";
@@ -61,7 +61,8 @@ impl Stream {
         let mut parameters = Model::named("sinh")?.parameters(&unknown);
         let largest_beta = bounds::choose(&mut parameters, bounds, largest_displacement)?.upper()[3];
         // The default box asks for sinh(x / largest displacement).
-        let Some(nodes) = nodes((largest_beta * largest_displacement).max(1.0)) else {
+        let largest = (largest_beta * largest_displacement).max(1.0);
+        let Some(nodes) = nodes(largest).filter(|_| largest <= LARGEST) else {
             let most = LARGEST / largest_displacement;
             let wanted = format!("at most {most} 1/mm: above it every sample has to be kept");
             return Err(Error::setting("upper bound of beta", largest_beta, wanted));

@@ -44,20 +44,23 @@ pub struct Certificate {
 }
 
 /// Bound the fitness from below over the whole box, until the gap to `cost`, the fitness that some
-/// parameters have, is within `tolerance` (such as 1e-9) or the effort is spent.
+/// parameters have, or to the optimum is within `tolerance` (such as 1e-9), or the effort is spent.
 ///
 /// The linear model needs no search: its cost is convex. After `cancel` is set it ends soon.
 ///
 /// # Errors
-/// As [`super::exact`], or a tolerance that is not above 0 and below 1.
+/// As [`super::exact`], a cost that is not finite, or a tolerance that is not above 0 and below 1.
 pub fn certificate(problem: &Problem, cost: f64, tolerance: f64, cancel: &AtomicBool) -> Result<Certificate> {
     if !(tolerance > 0.0 && tolerance < 1.0) {
         return Err(Error::setting("tolerance", tolerance, "a number above 0 and below 1"));
     }
+    if !cost.is_finite() {
+        return Err(Error::setting("fitness", cost, "a finite number, as parameters in the box have it"));
+    }
     match Kind::of(problem) {
         Kind::Linear => Ok(Certificate::new(cost, super::linear(problem).cost.min(cost), tolerance, 1)),
         Kind::Sinh => Ok(sinh(problem, cost, tolerance, cancel)),
-        Kind::Other => Err(super::unknown(problem, "a certificate exists")),
+        Kind::Other => Err(super::unknown(problem)),
     }
 }
 
@@ -78,10 +81,13 @@ fn sinh(problem: &Problem, cost: f64, tolerance: f64, cancel: &AtomicBool) -> Ce
         .windows(2)
         .map(|ends| Cell { low: ends[0], high: ends[1], bound: 0.0 })
         .collect();
-    // Half of the tolerance, so that roundings do not keep an interval open.
-    let enough = cost * (1.0 - 0.5 * tolerance);
+    // A bound that no interval can meet would take all the effort: nothing above the optimum is asked for.
+    let best = super::sinh(problem).cost.min(cost);
+    let wanted = cost * (1.0 - tolerance);
+    // Half way, so that roundings do not keep an interval open.
+    let enough = if wanted < best { 0.5 * (wanted + best) } else { best * (1.0 - 0.5 * tolerance) };
     let most = if curve.is_compressed() { MOST } else { MOST_PASSES };
-    let (mut lower, mut evaluations) = (cost, 0);
+    let (mut lower, mut evaluations) = (best, 0);
     while let Some(cell) = cells.pop() {
         if evaluations >= most || cancel.load(Ordering::Relaxed) {
             lower = lower.min(cell.bound);
@@ -89,7 +95,7 @@ fn sinh(problem: &Problem, cost: f64, tolerance: f64, cancel: &AtomicBool) -> Ce
         }
         evaluations += 1;
         let middle = 0.5 * (cell.low + cell.high);
-        let bound = bound(&curve, &cell, cost).max(cell.bound);
+        let bound = bound(&curve, &cell, best).max(cell.bound);
         if bound >= enough || middle <= cell.low || middle >= cell.high {
             lower = lower.min(bound);
         } else {

@@ -35,7 +35,7 @@ pub fn exact(problem: &Problem) -> Result<Exact> {
     Ok(match Kind::of(problem) {
         Kind::Linear => linear(problem),
         Kind::Sinh => sinh(problem),
-        Kind::Other => return Err(unknown(problem, "the exact optimum is known")),
+        Kind::Other => return Err(unknown(problem)),
     })
 }
 
@@ -60,9 +60,17 @@ impl Kind {
     }
 }
 
+/// Refuse a problem for which no certificate exists.
+///
+/// # Errors
+/// As [`exact`].
+pub fn check(problem: &Problem) -> Result<()> {
+    if Kind::of(problem) == Kind::Other { Err(unknown(problem)) } else { Ok(()) }
+}
+
 /// Why a problem has no proven optimum.
-fn unknown(problem: &Problem, what: &str) -> Error {
-    let wanted = format!("{what} for kelvin_voigt and sinh");
+fn unknown(problem: &Problem) -> Error {
+    let wanted = "a proven optimum exists for kelvin_voigt and sinh only";
     match problem.law() {
         Law::Affine { .. } => {
             Error::setting("current", "changing within a recording", format!("constant: {wanted}"))
