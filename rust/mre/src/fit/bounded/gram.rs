@@ -64,24 +64,25 @@ mod tests {
 
         #[test]
         fn no_point_of_the_box_is_better(
-            columns in prop::collection::vec(-1.0..1.0_f64, 24),
-            target in prop::collection::vec(-2.0..2.0_f64, 6),
-            lower in prop::collection::vec(-1.0..0.2_f64, 4),
-            width in prop::collection::vec(0.0..1.0_f64, 4),
-            trial in prop::collection::vec(0.0..1.0_f64, 4),
+            k in prop_oneof![Just(1_usize), Just(4), Just(7)],
+            columns in prop::collection::vec(-1.0..1.0_f64, 70),
+            target in prop::collection::vec(-2.0..2.0_f64, 10),
+            lower in prop::collection::vec(-1.0..0.2_f64, 7),
+            width in prop::collection::vec(0.0..1.0_f64, 7),
+            trial in prop::collection::vec(0.0..1.0_f64, 7),
         ) {
-            let a = DMatrix::from_column_slice(6, 4, &columns);
+            let a = DMatrix::from_column_slice(10, k, &columns[..10 * k]);
             let f = DVector::from_column_slice(&target);
             let upper: Vec<f64> = lower.iter().zip(&width).map(|(l, w)| l + w).collect();
-            let found = minimise(&(a.transpose() * &a), &(a.transpose() * &f), &lower, &upper);
+            let found = minimise(&(a.transpose() * &a), &(a.transpose() * &f), &lower[..k], &upper[..k]);
             let cost = |b: &[f64]| (&a * DVector::from_column_slice(b) - &f).norm_squared();
-            for i in 0..4 {
+            for i in 0..k {
                 prop_assert!(found[i] >= lower[i] && found[i] <= upper[i]);
             }
-            let other: Vec<f64> = (0..4).map(|i| lower[i] + trial[i] * width[i]).collect();
+            let other: Vec<f64> = (0..k).map(|i| lower[i] + trial[i] * width[i]).collect();
             prop_assert!(cost(&found) <= cost(&other) + 1e-12);
             // Nor one near by.
-            for i in 0..4 {
+            for i in 0..k {
                 for step in [-1e-4, 1e-4] {
                     let mut near = found.clone();
                     near[i] = (near[i] + step).clamp(lower[i], upper[i]);
