@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
 from .columns import assumption, find_columns
-from .csvfile import CsvFile, counts, read_headers, read_numbers
+from .csvfile import CsvFile, is_content, read_headers, read_numbers
 from .errors import InputError, UnitAssumedWarning
 
 if TYPE_CHECKING:
@@ -64,7 +64,7 @@ def read_chunks(
 
 
 def _chunks(text: TextIO, file: str, map: Mapping[str, str] | None, rows: int) -> "Iterator[Chunk]":
-    line, header = next(((i, line) for i, line in enumerate(text, 1) if counts(line)), (0, ""))
+    line, header = next(((i, line) for i, line in enumerate(text, 1) if is_content(line)), (0, ""))
     if not header:
         raise InputError("no header and no data", file=file, wanted="a header with units and data")
     headers = read_headers(header.rstrip("\n"), file, line)
@@ -74,7 +74,7 @@ def _chunks(text: TextIO, file: str, map: Mapping[str, str] | None, rows: int) -
         raise InputError("no column for velocity", file=file, wanted=wanted)
     used = [columns[role] for role in ("displacement", "velocity", "force")]
     if message := assumption(used, file):
-        warnings.warn(message, UnitAssumedWarning, stacklevel=4)
+        warnings.warn(message, UnitAssumedWarning, stacklevel=3)
     first = line + 1
     while body := [line.rstrip("\n") for line in islice(text, rows)]:
         values = read_numbers(CsvFile(file, headers, body, first), [column.header for column in used])

@@ -48,7 +48,7 @@ def open_csv(path: Path) -> CsvFile:
     """
     file = str(path)
     lines = _decode(_bytes(path), file).replace("\r\n", "\n").replace("\r", "\n").split("\n")
-    starts = (i for i, line in enumerate(lines, 1) if counts(line))
+    starts = (i for i, line in enumerate(lines, 1) if is_content(line))
     header_line = next(starts, None)
     if header_line is None:
         raise InputError("no header and no data", file=file, wanted=f"a header such as {_EXAMPLE}")
@@ -59,7 +59,7 @@ def open_csv(path: Path) -> CsvFile:
     return CsvFile(file, headers, lines[header_line:], header_line + 1)
 
 
-def counts(line: str) -> bool:
+def is_content(line: str) -> bool:
     """Tell a header or data from a blank line or a comment."""
     return bool(line.strip()) and not line.lstrip().startswith("#")
 

@@ -86,8 +86,8 @@ impl Problem {
 
     /// Problem of the sinh model from samples that pass by once and are not kept.
     ///
-    /// Memory does not grow with the number of samples, and an evaluation costs what it costs on a few
-    /// thousand. What has to be known beforehand is the largest displacement and, through it or as a
+    /// Every sample counts the same. Memory does not grow with their number, and an evaluation costs what
+    /// it costs on a few thousand. What has to be known beforehand is the largest displacement and, through it or as a
     /// bound, the largest beta: they decide the polynomials by which sinh is represented. The default
     /// box is that of `Problem` with the largest displacement given here.
     ///

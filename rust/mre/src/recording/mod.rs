@@ -4,13 +4,13 @@
 
 mod check;
 mod condition;
-mod part;
+mod cut;
 
 use std::ops::Range;
 
 pub use condition::Condition;
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::velocity;
 
 /// Fewest samples from which a velocity and five parameters can be told.
@@ -125,6 +125,36 @@ impl Recording {
         let mut steps: Vec<f64> = self.series.time.windows(2).map(|pair| pair[1] - pair[0]).collect();
         steps.sort_by(f64::total_cmp);
         1.0 / steps[steps.len() / 2]
+    }
+
+    /// The samples that count in a fitness. All of them take part in a simulation, so that a
+    /// hysteretic variable keeps its history through an excluded start.
+    pub fn scored(&self) -> Range<usize> {
+        self.scored.clone()
+    }
+
+    /// The recording with another range of samples that count.
+    ///
+    /// # Errors
+    /// A range with fewer than [`MIN_SAMPLES`] samples or outside the recording.
+    pub fn with_scored(&self, scored: Range<usize>) -> Result<Self> {
+        if scored.end > self.len() || scored.len() < MIN_SAMPLES {
+            return Err(Error::setting(
+                "range of samples to score",
+                format!("{}..{}", scored.start, scored.end),
+                format!("at least {MIN_SAMPLES} samples within 0..{}", self.len()),
+            )
+            .in_recording(self.name()));
+        }
+        Ok(Self { scored, ..self.clone() })
+    }
+
+    /// The same recording with the velocity window and the range of another that it was copied from.
+    ///
+    /// # Errors
+    /// As [`Recording::with_scored`].
+    pub fn restored(&self, velocity_window: Option<f64>, scored: Range<usize>) -> Result<Self> {
+        Ok(Self { velocity_window, ..self.with_scored(scored)? })
     }
 }
 

@@ -1,41 +1,9 @@
-//! Parts of a recording: what counts, and what is cut off.
-
-use std::ops::Range;
+//! A part of a recording.
 
 use super::{Condition, MIN_SAMPLES, Recording, Series};
 use crate::error::{Error, Result};
 
 impl Recording {
-    /// The samples that count in a fitness. All of them take part in a simulation, so that a
-    /// hysteretic variable keeps its history through an excluded start.
-    pub fn scored(&self) -> Range<usize> {
-        self.scored.clone()
-    }
-
-    /// The recording with another range of samples that count.
-    ///
-    /// # Errors
-    /// A range with fewer than [`MIN_SAMPLES`] samples or outside the recording.
-    pub fn with_scored(&self, scored: Range<usize>) -> Result<Self> {
-        if scored.end > self.len() || scored.len() < MIN_SAMPLES {
-            return Err(Error::setting(
-                "range of samples to score",
-                format!("{}..{}", scored.start, scored.end),
-                format!("at least {MIN_SAMPLES} samples within 0..{}", self.len()),
-            )
-            .in_recording(self.name()));
-        }
-        Ok(Self { scored, ..self.clone() })
-    }
-
-    /// The same recording with the velocity window and the range of another that it was copied from.
-    ///
-    /// # Errors
-    /// As [`Recording::with_scored`].
-    pub fn restored(&self, velocity_window: Option<f64>, scored: Range<usize>) -> Result<Self> {
-        Ok(Self { velocity_window, ..self.with_scored(scored)? })
-    }
-
     /// The part between two times in s. What is cut off is forgotten: a simulation of the rest
     /// starts rested.
     ///
