@@ -30,9 +30,7 @@ fn iteration(c: &mut Criterion) {
                 let mut physical = Vec::new();
                 let mut evaluate = |unit: &[f64], costs: &mut [f64]| {
                     physical.resize(unit.len(), 0.0);
-                    for (unit, physical) in unit.chunks_exact(d).zip(physical.chunks_exact_mut(d)) {
-                        problem.bounds().to_physical(unit, physical);
-                    }
+                    problem.bounds().to_physical(unit, &mut physical);
                     problem.fitness(&physical, costs, &never);
                 };
                 run(&mut swarm, &mut evaluate, d, &Budget::default(), &mut |_| true);

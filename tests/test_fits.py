@@ -1,5 +1,7 @@
 """Exact and hybrid fits: at the optimum, inside the box, the same for every thread count."""
 
+from typing import Any
+
 import mre_core
 import numpy as np
 import pytest
@@ -126,12 +128,52 @@ def test_law_over_a_changing_current() -> None:
     assert found.model.levels[1].parameters["k0"] == pytest.approx(20.0, rel=1e-3)
 
 
-def test_wrong_settings_are_named(sinh_recording: Recording) -> None:
-    with pytest.raises(mre_core.MreError, match="n_fish is 0"):
-        mre_core.hybrid(Problem(sinh_recording), seed=1, n_fish=0)
-    with pytest.raises(mre_core.MreError, match="max_iterations is given"):
-        mre_core.identify(sinh_recording, optimizer="exact", max_iterations=3)
-    with pytest.raises(mre_core.MreError, match="max_evaluations is 0"):
-        mre_core.hybrid(Problem(sinh_recording), seed=1, max_evaluations=0)
-    with pytest.raises(mre_core.MreError, match="x0 is NaN"):
-        mre_core.hybrid(Problem(sinh_recording), seed=1, x0=[1.0, np.nan, 1.0, 0.1, 0.0])
+WRONG: dict[str, tuple[str, dict[str, Any]]] = {
+    "n_fish is 0: a whole number from 1": ("hybrid", {"n_fish": 0}),
+    "max_iterations is -1: a whole number from 1": ("hybrid", {"max_iterations": -1}),
+    "n_particles is 0: a whole number from 1": ("pso", {"n_particles": 0}),
+    "max_iterations is given": ("exact", {"max_iterations": 3}),
+    "max_evaluations is 0: a whole number of at least 1": ("hybrid", {"max_evaluations": 0}),
+    "max_evaluations is -3: a whole number of at least 1": ("mafsa", {"max_evaluations": -3}),
+    "time_limit is 0: a number of seconds above 0": ("hybrid", {"time_limit": 0}),
+    "time_limit is -1: a number of seconds above 0": ("pso", {"time_limit": -1.0}),
+    "time_limit is NaN: a number of seconds above 0": ("hybrid", {"time_limit": np.nan}),
+    "target is NaN: a number": ("afsa", {"target": np.nan}),
+    "x0 is NaN: finite numbers": ("hybrid", {"x0": [1.0, np.nan, 1.0, 0.1, 0.0]}),
+    "threads is 0: a whole number from 1": ("exact", {"threads": 0}),
+    "bound of beta is 0.5:0.1: the lower bound has to be below": ("exact", {"bounds": {"beta": (0.5, 0.1)}}),
+    "bound of beta is 0.1:1000: at most 175 1/mm, above": ("exact", {"bounds": {"beta": (0.1, 1000)}}),
+    "bound of beta is 0.1:NaN: both bounds have": ("hybrid", {"bounds": {"beta": (0.1, np.nan)}}),
+}
+
+
+@pytest.mark.parametrize("wanted", WRONG)
+def test_wrong_settings_are_named(sinh_recording: Recording, wanted: str) -> None:
+    optimizer, options = WRONG[wanted]
+    with pytest.raises(mre_core.MreError) as caught:
+        mre_core.identify(sinh_recording, "sinh", optimizer=optimizer, seed=1, **options)  # type: ignore[arg-type]
+    assert str(caught.value).startswith(wanted)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("option", "value", "wanted"),
+    [
+        ("max_evaluations", "many", "max_evaluations is 'many': wanted a whole number of at least 1"),
+        ("time_limit", "long", "time_limit is 'long': wanted a number"),
+        ("threads", 1.5, "threads is 1.5: wanted a whole number"),
+    ],
+)
+def test_options_of_another_type_are_named(
+    sinh_recording: Recording, option: str, value: Any, wanted: str
+) -> None:
+    for search in (mre_core.pso, mre_core.hybrid):
+        with pytest.raises(TypeError) as caught:
+            search(Problem(sinh_recording), seed=1, **{option: value})
+        assert str(caught.value) == wanted
+
+
+def test_a_wide_box_short_of_overflow_is_searched(sinh_recording: Recording) -> None:
+    narrow = mre_core.exact(Problem(sinh_recording))
+    wide = mre_core.exact(Problem(sinh_recording, bounds={"beta": (0.001, 174.0)}))
+    assert wide.fun <= narrow.fun * (1 + 1e-9)

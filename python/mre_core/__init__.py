@@ -5,16 +5,20 @@ Units everywhere: millimetre, newton, second, ampere, degree Celsius.
 
 from ._core import MreError, Problem, Recording, __version__, inertia_weight, models
 from .asktell import AskTell
+from .certificate import Certificate, certificate
+from .chunks import read_chunks
 from .errors import ExtrapolationWarning, InputError, UnitAssumedWarning
 from .fits import exact, hybrid
-from .identify import Fit, Identification, identify
+from .identify import Identification, identify
 from .load import from_dataframe, load
+from .measure import Fit
 from .model import Level, Model, simulate
 from .results import Parameter, StopReason, SwarmResult
 from .swarms import afsa, mafsa, pso
 
 __all__ = [
     "AskTell",
+    "Certificate",
     "ExtrapolationWarning",
     "Fit",
     "Identification",
@@ -30,6 +34,7 @@ __all__ = [
     "UnitAssumedWarning",
     "__version__",
     "afsa",
+    "certificate",
     "exact",
     "from_dataframe",
     "hybrid",
@@ -39,5 +44,6 @@ __all__ = [
     "mafsa",
     "models",
     "pso",
+    "read_chunks",
     "simulate",
 ]

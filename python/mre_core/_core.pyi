@@ -1,4 +1,4 @@
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, Self, final
 
 import numpy as np
@@ -62,6 +62,14 @@ class Problem:
         *,
         weights: str | ArrayLike | None = None,
     ) -> Self: ...
+    @staticmethod
+    def streamed(
+        chunks: Iterable[Recording | tuple[ArrayLike, ArrayLike, ArrayLike]],
+        largest_displacement: float,
+        bounds: Mapping[str, tuple[float, float]] | None = None,
+        *,
+        threads: int | None = None,
+    ) -> Problem: ...
     @property
     def model(self) -> str: ...
     @property
@@ -108,27 +116,8 @@ class Swarm:
     def history(self) -> dict[str, NDArray[Any]]: ...
     @property
     def behaviours(self) -> dict[str, int]: ...
-    def run_problem(
-        self,
-        problem: Problem,
-        *,
-        max_evaluations: int | None = None,
-        time_limit: float | None = None,
-        target: float | None = None,
-        threads: int | None = None,
-        callback: Callable[[int, int, float], Any] | None = None,
-        on_interrupt: str = "raise",
-    ) -> str: ...
-    def run_function(
-        self,
-        function: Callable[[NDArray[np.float64]], ArrayLike],
-        *,
-        max_evaluations: int | None = None,
-        time_limit: float | None = None,
-        target: float | None = None,
-        callback: Callable[[int, int, float], Any] | None = None,
-        on_interrupt: str = "raise",
-    ) -> str: ...
+    def run_problem(self, problem: Problem, **options: Any) -> str: ...
+    def run_function(self, function: Callable[[NDArray[np.float64]], ArrayLike], **options: Any) -> str: ...
 
 def fit_exact(
     problem: Problem, *, threads: int | None = None, on_interrupt: str = "raise"
@@ -139,13 +128,12 @@ def fit_hybrid(
     seed: int,
     *,
     start: ArrayLike | None = None,
-    max_evaluations: int | None = None,
-    time_limit: float | None = None,
-    target: float | None = None,
-    threads: int | None = None,
-    callback: Callable[[int, int, float], Any] | None = None,
-    on_interrupt: str = "raise",
+    **options: Any,
 ) -> tuple[NDArray[np.float64], float, int, str, dict[str, NDArray[Any]]]: ...
+def check_certifiable(problem: Problem) -> None: ...
+def certify(
+    problem: Problem, x: ArrayLike, tolerance: float, *, threads: int | None = None
+) -> tuple[float, float, bool, int]: ...
 def models() -> list[str]: ...
 def parameters(model: str) -> list[tuple[str, str]]: ...
 def check(model: str, levels: Sequence[tuple[float | None, Sequence[float]]]) -> None: ...

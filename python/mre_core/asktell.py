@@ -5,7 +5,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import swarms
+from .minimise import Bounds, draw_seed, in_box, read_box
+from .swarms import defaults
 
 
 class AskTell:
@@ -32,10 +33,12 @@ class AskTell:
     True
     """
 
-    def __init__(
-        self, algorithm: str, bounds: swarms.Bounds, *, seed: int | None = None, **settings: Any
-    ) -> None:
-        self._swarm, self.seed = swarms.make(algorithm, bounds, seed, settings)
+    def __init__(self, algorithm: str, bounds: Bounds, *, seed: int | None = None, **settings: Any) -> None:
+        known, start = defaults(algorithm), settings.pop("x0", None)
+        if unknown := sorted(set(settings) - set(known)):
+            raise TypeError(f"{algorithm} got an unexpected keyword argument '{unknown[0]}'")
+        self.seed = draw_seed(seed)
+        self._swarm = in_box(algorithm, read_box(bounds), self.seed, known | settings, start)
 
     def ask(self) -> NDArray[np.float64]:
         """Parameters whose costs are wanted, shape (n, d); n differs from generation to generation."""

@@ -19,12 +19,13 @@ _EXAMPLE: Final = "time_s,displacement_mm,force_N"
 
 
 class CsvFile(NamedTuple):
-    """Text of a CSV file with its header found."""
+    """Lines of data of a CSV file, or of a part of it, and the names of their columns."""
 
     file: str
-    lines: list[str]
-    header_line: int
     headers: list[str]
+    body: list[str]
+    first: int
+    """Line of the file on which the body starts, counted from 1."""
 
 
 def open_csv(path: Path) -> CsvFile:
@@ -38,7 +39,7 @@ def open_csv(path: Path) -> CsvFile:
     Returns
     -------
     CsvFile
-        Lines and column names.
+        All lines of data, and column names.
 
     Raises
     ------
@@ -47,15 +48,20 @@ def open_csv(path: Path) -> CsvFile:
     """
     file = str(path)
     lines = _decode(_bytes(path), file).replace("\r\n", "\n").replace("\r", "\n").split("\n")
-    starts = (i for i, line in enumerate(lines, 1) if line.strip() and not line.lstrip().startswith("#"))
+    starts = (i for i, line in enumerate(lines, 1) if is_content(line))
     header_line = next(starts, None)
     if header_line is None:
         raise InputError("no header and no data", file=file, wanted=f"a header such as {_EXAMPLE}")
-    headers = _headers(lines[header_line - 1], file, header_line)
+    headers = read_headers(lines[header_line - 1], file, header_line)
     if next(starts, None) is None:
         wanted = "rows of numbers below it"
         raise InputError("a header but no data", file=file, line=header_line, wanted=wanted)
-    return CsvFile(file, lines, header_line, headers)
+    return CsvFile(file, headers, lines[header_line:], header_line + 1)
+
+
+def is_content(line: str) -> bool:
+    """Tell a header or data from a blank line or a comment."""
+    return bool(line.strip()) and not line.lstrip().startswith("#")
 
 
 def read_numbers(source: CsvFile, columns: Sequence[str]) -> dict[str, "NDArray[np.float64]"]:
@@ -64,7 +70,7 @@ def read_numbers(source: CsvFile, columns: Sequence[str]) -> dict[str, "NDArray[
     Parameters
     ----------
     source : CsvFile
-        File as opened by `open_csv`.
+        File as opened by `open_csv`, or a part of it.
     columns : sequence of str
         Names of the columns wanted; the others may hold anything.
 
@@ -78,7 +84,7 @@ def read_numbers(source: CsvFile, columns: Sequence[str]) -> dict[str, "NDArray[
     InputError
         A cell is no finite number, or a row has more fields than the header.
     """
-    body = source.lines[source.header_line :]
+    body = source.body
     commas = len(source.headers) - 1
     plain = not any(line.count(",") > commas or '"' in line for line in body)
     values = _fast(source, columns, "\n".join(body)) if plain else None
@@ -135,7 +141,8 @@ def _decode(data: bytes, file: str) -> str:
         raise InputError(found, file=file, line=line, wanted=wanted) from None
 
 
-def _headers(text: str, file: str, line: int) -> list[str]:
+def read_headers(text: str, file: str, line: int) -> list[str]:
+    """Read the names of the columns out of a header; what is no header is refused."""
     try:
         (names,) = csv.reader([text], skipinitialspace=True, strict=True)
     except csv.Error as error:
@@ -212,13 +219,13 @@ def _careful(source: CsvFile, columns: Sequence[str]) -> dict[str, "NDArray[np.f
 
 def _rows(source: CsvFile) -> Iterator[tuple[int, list[str]]]:
     """Rows of data, each with the line on which it starts; blank lines are passed over."""
-    reader = csv.reader(source.lines[source.header_line :], skipinitialspace=True, strict=True)
-    line = source.header_line + 1
+    reader = csv.reader(source.body, skipinitialspace=True, strict=True)
+    line = source.first
     try:
         for cells in reader:
             if len(cells) > 1 or any(cell.strip() for cell in cells):
                 yield line, cells
-            line = source.header_line + reader.line_num + 1
+            line = source.first + reader.line_num
     except csv.Error as error:
         problem = f"row cannot be read: {error}"
         raise InputError(problem, file=source.file, line=line, wanted="quotes in pairs") from None

@@ -8,8 +8,9 @@ from numpy.typing import NDArray
 
 from . import _core
 from ._core import Problem
+from .minimise import RunOptions, check_options, draw_seed
 from .results import StopReason, SwarmResult, parameters_at, to_records
-from .swarms import RunOptions, check_options, defaults, draw_seed
+from .swarms import defaults
 
 
 def exact(

@@ -1,36 +1,24 @@
 """From recordings to an identified model."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
 
-from ._core import Problem, Recording, parameters
+from ._core import Problem, Recording, check_certifiable, parameters
+from .certificate import certificate
 from .errors import InputError
 from .fits import exact, hybrid
-from .model import Level, Model, simulate
+from .grouping import group_by_current
+from .measure import Fit, measure_fit
+from .minimise import draw_seed
+from .model import Level, Model
 from .results import StopReason, SwarmResult
-from .swarms import afsa, draw_seed, mafsa, pso
+from .swarms import afsa, mafsa, pso
 
 SWARMS: dict[str, Callable[..., SwarmResult]] = {"mafsa": mafsa, "afsa": afsa, "pso": pso}
 OPTIMIZERS = (*SWARMS, "exact", "hybrid")
-
-
-@dataclass(frozen=True)
-class Fit:
-    """How well the model follows one recording, over the samples that are scored."""
-
-    recording: str
-    current: float | None
-    """Level of the current in A; None where it is not known or changes."""
-    samples: int
-    rms: float
-    """Root mean square error in N (eq. 9)."""
-    relative_rms: float
-    """The same as a share of the root mean square of the force about its mean."""
-    peak_error: float
-    """Largest error as a share of the largest force."""
 
 
 @dataclass(frozen=True)
@@ -74,6 +62,7 @@ def identify(
     seed: int | None = None,
     bounds: Mapping[str, tuple[float, float]] | None = None,
     weights: Literal["samples", "force"] | None = None,
+    certify: bool = False,
     on_level: Callable[[int, int, float | None], Any] | None = None,
     **options: Any,
 ) -> Identification:
@@ -98,6 +87,9 @@ def identify(
         Bounds that replace default ones, which follow from the recordings (see `Problem`).
     weights : {"samples", "force"}, optional
         Every sample counts the same (eq. 5), or every recording by its mean squared force.
+    certify : bool
+        Prove for every run that nothing in the box is better (see `certificate`); `kelvin_voigt` and
+        `sinh` only.
     on_level : callable, optional
         Called with (number of the group, number of groups, current) before each run.
     **options
@@ -119,6 +111,8 @@ def identify(
     everything = [recordings] if isinstance(recordings, Recording) else list(recordings)
     groups = group_by_current(everything)
     problems = [Problem(members, name, bounds, weights=weights) for _, members in groups]
+    if certify:
+        check_certifiable(problems[0])  # before time is spent on a search
     seed = draw_seed(seed)
     levels: list[Level] = []
     runs = []
@@ -127,6 +121,8 @@ def identify(
             on_level(i, len(groups), current)
         start = _start(model, problem, current) if isinstance(model, Model) else None
         run = _optimise(optimizer, problem, seed, start, options)
+        if certify and run.reason is not StopReason.INTERRUPTED:
+            run = replace(run, certificate=certificate(problem, run, threads=options.get("threads")))
         runs.append(run)
         symbols = [symbol for symbol, _ in parameters(name)]
         for level, values in problem.levels(run.x, current):
@@ -157,54 +153,6 @@ def _optimise(
     return replace(run, optimum=min(best.fitness, run.fitness))
 
 
-def group_by_current(recordings: Sequence[Recording]) -> list[tuple[float | None, list[Recording]]]:
-    """Group recordings that share their parameters, by rising current.
-
-    Levels closer than 0.02 A plus 2 % are one. One recording with changing current puts all into one
-    group without a level.
-    """
-    if not recordings:
-        raise InputError("recordings are an empty list", wanted="at least one recording")
-    if any(recording.current_varies for recording in recordings):
-        return [(None, list(recordings))]
-    known = [r for r in recordings if r.current_level is not None]
-    unknown = [r for r in recordings if r.current_level is None]
-    if known and unknown:
-        raise InputError(
-            f"recording '{unknown[0].name}' has no current, others have", wanted="current=VALUE[A] for all"
-        )
-    if unknown:
-        return [(None, unknown)]
-    groups: list[list[Recording]] = []
-    for recording in sorted(known, key=lambda r: r.current_level or 0.0):
-        level = recording.current_level or 0.0
-        last = groups[-1][-1].current_level or 0.0 if groups else -np.inf
-        if level - last <= 0.02 + 0.02 * abs(level):
-            groups[-1].append(recording)
-        else:
-            groups.append([recording])
-    return [(float(np.mean([r.current_level or 0.0 for r in group])), group) for group in groups]
-
-
-def measure_fit(model: Model, recording: Recording) -> Fit:
-    """Compare a model with the force of a recording, over the samples that are scored."""
-    scored = slice(*recording.scored)
-    if recording.force is None:
-        raise InputError(f"recording '{recording.name}' has no force", wanted="a force to compare with")
-    force = recording.force[scored]
-    error = force - simulate(model, recording)[scored]
-    rms = float(np.sqrt(np.mean(error**2)))
-    spread = float(np.std(force))
-    return Fit(
-        recording=recording.name,
-        current=recording.current_level,
-        samples=len(force),
-        rms=rms,
-        relative_rms=rms / spread if spread > 0 else float("inf"),
-        peak_error=float(np.abs(error).max() / np.abs(force).max()),
-    )
-
-
 def _tested(recordings: Sequence[Recording]) -> dict[str, float]:
     return {
         "displacement_mm": max(float(np.abs(r.displacement).max()) for r in recordings),
@@ -224,35 +172,3 @@ def _start(model: Model, problem: Problem, current: float | None) -> list[float]
         level = nearest(float(at.removesuffix(" A)")) if at else current)
         start.append(float(level.parameters[symbol]))
     return start
-
-
-def describe(found: Identification) -> dict[str, Any]:
-    """Content of ``identification.json``: runs with their history, and the fit of every recording."""
-    runs = []
-    for run in found.runs:
-        runs.append(
-            {
-                "algorithm": run.algorithm,
-                "parameters": [asdict(parameter) for parameter in run.parameters],
-                "fitness": run.fitness,
-                "unit": run.unit,
-                "rms_N": run.rms,
-                "gap": run.gap,
-                "reason": str(run.reason),
-                "iterations": run.n_iterations,
-                "evaluations": run.n_evaluations,
-                "failures": run.n_failures,
-                "behaviours": dict(run.behaviours),
-                "settings": dict(run.settings),
-                "history": {name: run.history[name].tolist() for name in run.history.dtype.names or ()},
-            }
-        )
-    return {
-        "schema": "mre-core/identification/1",
-        "model": found.model.name,
-        "optimizer": found.optimizer,
-        "seed": found.seed,
-        "interrupted": found.interrupted,
-        "runs": runs,
-        "fits": [asdict(fit) for fit in found.fits],
-    }

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ._core import Recording
-from .identify import measure_fit
+from .measure import measure_fit
 from .model import Model, simulate
 
 if TYPE_CHECKING:

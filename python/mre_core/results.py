@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._core import Problem, Swarm
+from .certificate import Certificate
 
 
 class StopReason(StrEnum):
@@ -67,6 +68,8 @@ class SwarmResult:
     settings: Mapping[str, Any] = field(repr=False)
     optimum: float | None = None
     """Best fitness known for the same problem, by `exact`; None where it was not looked for."""
+    certificate: Certificate | None = None
+    """Proof that nothing in the box is better; None where it was not asked for."""
 
     @property
     def gap(self) -> float | None:
@@ -116,6 +119,8 @@ class SwarmResult:
             rows.append(f"  {p.name:<12} {p.value:>14.6g} {p.unit}  {p.note}".rstrip())
         if self.gap is not None:
             rows.append(f"  {100 * self.gap:.2g} % above the best known optimum")
+        if self.certificate is not None:
+            rows.append(f"  {self.certificate}")
         rows.append(
             f"  {self.n_iterations} iterations, {self.n_evaluations} evaluations"
             f" ({self.n_failures} failed), stopped by {self.reason}, seed {self.seed}"

@@ -1,51 +1,13 @@
 """Swarms: AFSA and MAFSA of Yu, Li and Li (ISARC 2014), and PSO."""
 
 import inspect
-import secrets
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Literal, TypedDict, Unpack
+from collections.abc import Callable
+from typing import Any, Literal, Unpack
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
-
-from ._core import Problem, Swarm
+from ._core import Problem
 from .errors import InputError
-from .results import StopReason, SwarmResult, collect
-
-Function = Callable[[NDArray[np.float64]], ArrayLike]
-Bounds = Mapping[str, tuple[float, float]] | Sequence[tuple[float, float]]
-Box = tuple[list[str], NDArray[np.float64], NDArray[np.float64]]
-
-# What makes a fish swarm AFSA, beside the settings that its function takes.
-_FIXED: dict[str, dict[str, Any]] = {
-    "afsa": {
-        "visual_min": 0.0,
-        "step_min": 0.0,
-        "p": 1,
-        "schedule": "constant",
-        "neighbourhood": "visual",
-    }
-}
-
-
-class RunOptions(TypedDict, total=False):
-    """Options that every swarm takes."""
-
-    x0: ArrayLike
-    """Where the first fish or particle starts, shape (d,); outside the box: at the nearest bound."""
-    max_evaluations: int
-    """Most evaluations; kept to the last one."""
-    time_limit: float
-    """Most seconds; checked between generations."""
-    target: float
-    """Fitness that is good enough."""
-    threads: int
-    """Threads for a `Problem`; all cores by default. The result does not depend on it."""
-    callback: Callable[[int, int, float], Any]
-    """Called with (iteration, evaluations, best), for a `Problem` at most 20 times a second and once at
-    the end, for a function after every generation; a true return value stops the run."""
-    on_interrupt: Literal["raise", "return"]
-    """What Ctrl-C does: raise KeyboardInterrupt, or return the best so far."""
+from .minimise import Bounds, Function, RunOptions, minimise
+from .results import SwarmResult
 
 
 def mafsa(
@@ -106,22 +68,22 @@ def mafsa(
     MreError
         A setting or bound is not allowed (a ValueError).
     """
-    settings = {
-        "n_fish": n_fish,
-        "max_iterations": max_iterations,
-        "try_number": try_number,
-        "delta": delta,
-        "visual": visual,
-        "step": step,
-        "visual_min": visual_min,
-        "step_min": step_min,
-        "p": p,
-        "schedule": schedule,
-        "neighbourhood": neighbourhood,
-        "crowd": crowd,
-        "search": search,
-    }
-    return _minimise("mafsa", problem, bounds, seed, settings, run)
+    settings = dict(
+        n_fish=n_fish,
+        max_iterations=max_iterations,
+        try_number=try_number,
+        delta=delta,
+        visual=visual,
+        step=step,
+        visual_min=visual_min,
+        step_min=step_min,
+        p=p,
+        schedule=schedule,
+        neighbourhood=neighbourhood,
+        crowd=crowd,
+        search=search,
+    )
+    return minimise("mafsa", problem, bounds, seed, settings, run)
 
 
 def afsa(
@@ -144,17 +106,17 @@ def afsa(
     Fish look at those in sight, and a searching fish steps towards its first better look. Parameters,
     result and errors as in `mafsa`.
     """
-    settings = {
-        "n_fish": n_fish,
-        "max_iterations": max_iterations,
-        "try_number": try_number,
-        "delta": delta,
-        "visual": visual,
-        "step": step,
-        "crowd": crowd,
-        "search": search,
-    }
-    return _minimise("afsa", problem, bounds, seed, settings, run)
+    settings = dict(
+        n_fish=n_fish,
+        max_iterations=max_iterations,
+        try_number=try_number,
+        delta=delta,
+        visual=visual,
+        step=step,
+        crowd=crowd,
+        search=search,
+    )
+    return minimise("afsa", problem, bounds, seed, settings, run)
 
 
 def pso(
@@ -190,46 +152,16 @@ def pso(
     ----------
     Shi and Eberhart 1998, https://doi.org/10.1109/ICEC.1998.699146
     """
-    settings = {
-        "n_particles": n_particles,
-        "max_iterations": max_iterations,
-        "inertia_start": inertia_start,
-        "inertia_end": inertia_end,
-        "cognitive": cognitive,
-        "social": social,
-        "speed": speed,
-    }
-    return _minimise("pso", problem, bounds, seed, settings, run)
-
-
-def draw_seed(seed: int | None) -> int:
-    """Take the seed as it is, or draw one that a person can type."""
-    if seed is None:
-        return secrets.randbelow(2**31)
-    if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or not 0 <= seed < 2**64:
-        raise InputError(f"seed is {seed!r}", wanted="a whole number from 0 to 2^64 - 1")
-    return int(seed)
-
-
-def check_options(function: str, run: Mapping[str, Any]) -> dict[str, Any]:
-    """Options of a run that are given, refused where no swarm knows them."""
-    if unknown := sorted(set(run) - set(RunOptions.__annotations__)):
-        raise TypeError(f"{function}() got an unexpected keyword argument '{unknown[0]}'")
-    return {name: value for name, value in run.items() if value is not None}
-
-
-def read_box(bounds: Bounds | None) -> Box:
-    """Names, lower and upper bounds of a box for a function."""
-    if bounds is None:
-        raise InputError("bounds are missing", wanted="a pair (lower, upper) for each parameter")
-    named = isinstance(bounds, Mapping)
-    pairs = list(bounds.values()) if isinstance(bounds, Mapping) else list(bounds)
-    names = [str(name) for name in bounds] if named else [f"x[{i}]" for i in range(len(pairs))]
-    try:
-        box = np.array(pairs, dtype=np.float64).reshape(len(pairs), 2)
-    except (TypeError, ValueError):
-        raise InputError("bounds cannot be read", wanted="a pair (lower, upper) for each parameter") from None
-    return names, box[:, 0].copy(), box[:, 1].copy()
+    settings = dict(
+        n_particles=n_particles,
+        max_iterations=max_iterations,
+        inertia_start=inertia_start,
+        inertia_end=inertia_end,
+        cognitive=cognitive,
+        social=social,
+        speed=speed,
+    )
+    return minimise("pso", problem, bounds, seed, settings, run)
 
 
 def defaults(algorithm: str) -> dict[str, Any]:
@@ -241,62 +173,3 @@ def defaults(algorithm: str) -> dict[str, Any]:
     return {
         k.name: k.default for k in keywords if k.kind is inspect.Parameter.KEYWORD_ONLY and k.name != "seed"
     }
-
-
-def make(algorithm: str, bounds: Bounds, seed: int | None, settings: Mapping[str, Any]) -> tuple[Swarm, int]:
-    """Make a swarm for ask and tell, and the seed it got; settings as keywords of the functions above."""
-    known = defaults(algorithm)
-    given = dict(settings)
-    start = given.pop("x0", None)
-    if unknown := sorted(set(given) - set(known)):
-        raise TypeError(f"{algorithm} got an unexpected keyword argument '{unknown[0]}'")
-    seed = draw_seed(seed)
-    return _in_box(algorithm, read_box(bounds), seed, known | given, start), seed
-
-
-def _complete(algorithm: str, settings: Mapping[str, Any]) -> dict[str, Any]:
-    return {**settings, **_FIXED.get(algorithm, {})}
-
-
-def _in_box(
-    algorithm: str, box: Box, seed: int, settings: Mapping[str, Any], start: ArrayLike | None
-) -> Swarm:
-    names, lower, upper = box
-    complete = _complete(algorithm, settings)
-    return Swarm(algorithm, complete, seed, lower=lower, upper=upper, names=names, start=start)
-
-
-def _minimise(
-    algorithm: str,
-    problem: Problem | Function,
-    bounds: Bounds | None,
-    seed: int | None,
-    settings: Mapping[str, Any],
-    run: RunOptions,
-) -> SwarmResult:
-    options = check_options(algorithm, run)
-    seed = draw_seed(seed)
-    start = options.pop("x0", None)
-    if isinstance(problem, Problem):
-        if bounds is not None:
-            raise InputError("bounds are given beside a Problem", wanted="Problem(..., bounds=...)")
-        box = (problem.names, problem.lower, problem.upper)
-        swarm = Swarm(algorithm, _complete(algorithm, settings), seed, problem=problem, start=start)
-        reason = swarm.run_problem(problem, **options)
-    elif callable(problem):
-        box = read_box(bounds)
-        swarm = _in_box(algorithm, box, seed, settings, start)
-        options.pop("threads", None)  # the function runs on this thread
-        reason = swarm.run_function(problem, **options)
-    else:
-        kind = type(problem).__name__
-        raise TypeError(f"problem is a {kind}: wanted a Problem or a function of a generation")
-    return collect(
-        algorithm,
-        swarm,
-        StopReason(reason),
-        problem=problem if isinstance(problem, Problem) else None,
-        box=box,
-        seed=seed,
-        settings=settings,
-    )

@@ -31,6 +31,7 @@ from .arguments import WHOLE, common_options, load_all, read_bounds, read_interv
 @click.option("--max-evaluations", type=WHOLE, help="Budget of evaluations for each current.")
 @click.option("--time-limit", type=float, metavar="S", help="Budget of seconds for each current.")
 @click.option("--threads", type=WHOLE, help="Threads; all cores by default.")
+@click.option("--certify", is_flag=True, help="Prove that nothing in the box is better (not bouc_wen).")
 @click.option("--no-figures", is_flag=True, help="Write no figures.")
 @click.option("--quiet", is_flag=True, help="No progress, no tables.")
 @common_options
@@ -105,7 +106,7 @@ def identify(
 
 def _write(stage: Any, found: Any, loaded: list[Any], *, figures: bool) -> None:
     """``model.json``, ``identification.json`` and one figure a recording."""
-    from ..identify import describe
+    from ..describe import describe
 
     stage.write_json("model.json", found.model.to_dict() | {"interrupted": found.interrupted})
     stage.write_json("identification.json", describe(found))

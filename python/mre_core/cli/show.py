@@ -69,6 +69,8 @@ def print_identification(found: "Identification") -> None:
             f" stopped by {run.reason}, seed {run.seed}"
         )
         out.print(table)
+        if run.certificate is not None:
+            out.print(str(run.certificate))
     _print_classical(found, out)
     table = Table(title="fit", title_justify="left")
     for column in (

@@ -1,16 +1,18 @@
 //! Exact and hybrid fits.
 
-use mre::fit;
+use mre::fit::{self, certified};
 use mre::swarm::StopReason;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::array::rows;
+use crate::bounds::read_start;
 use crate::error::to_python;
+use crate::outcome::{history_to_python, name_of};
 use crate::problem::Problem;
-use crate::run::{Ended, in_pool, raises};
-use crate::settings::{budget, fish};
-use crate::swarm::{history_to_python, name_of, read_start};
+use crate::run::{Ended, Link, in_pool, raises};
+use crate::settings::{RunOptions, fish, run_options};
 
 type Outcome<'py> = (Bound<'py, PyArray1<f64>>, f64, u64, &'static str, Bound<'py, PyDict>);
 
@@ -36,23 +38,16 @@ pub(crate) fn fit_exact<'py>(
 
 /// MAFSA over the shapes with exact coefficients, then descent: `(x, fitness, evaluations, reason, history)`.
 #[pyfunction]
-#[pyo3(signature = (problem, settings, seed, *, start=None, max_evaluations=None, time_limit=None, target=None, threads=None, callback=None, on_interrupt="raise"))]
-#[allow(clippy::too_many_arguments, clippy::needless_pass_by_value)]
+#[pyo3(signature = (problem, settings, seed, *, start=None, **options))]
 pub(crate) fn fit_hybrid<'py>(
     py: Python<'py>,
     problem: &Problem,
     settings: &Bound<'py, PyDict>,
     seed: u64,
     start: Option<&Bound<'py, PyAny>>,
-    max_evaluations: Option<i64>,
-    time_limit: Option<f64>,
-    target: Option<f64>,
-    threads: Option<i64>,
-    callback: Option<Py<PyAny>>,
-    on_interrupt: &str,
+    options: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Outcome<'py>> {
-    let budget = budget(max_evaluations, time_limit, target)?;
-    let raise = raises(on_interrupt)?;
+    let RunOptions { budget, threads, callback, raise } = run_options(options)?;
     let settings = fish(settings)?;
     let start = start.map(|x0| read_start(x0, problem.inner.parameters().len())).transpose()?;
     let (fit, ended) = in_pool(py, threads, callback.as_ref(), raise, |link| {
@@ -60,4 +55,30 @@ pub(crate) fn fit_hybrid<'py>(
         fit::hybrid(&problem.inner, settings, seed, start.as_deref(), &budget, &mut monitor, link.cancel())
     })?;
     outcome(py, fit.map_err(to_python)?, ended)
+}
+
+/// Refuse a problem for which no certificate exists.
+#[pyfunction]
+pub(crate) fn check_certifiable(problem: &Problem) -> PyResult<()> {
+    certified::check(&problem.inner).map_err(to_python)
+}
+
+/// How far parameters are from the best of the box: `(lower, gap, certified, evaluations)`.
+#[pyfunction]
+#[pyo3(signature = (problem, x, tolerance, *, threads=None))]
+pub(crate) fn certify(
+    py: Python<'_>,
+    problem: &Problem,
+    x: &Bound<'_, PyAny>,
+    tolerance: f64,
+    threads: Option<i64>,
+) -> PyResult<(f64, f64, bool, u64)> {
+    let (row, _) = rows("x", x, problem.inner.parameters().len())?;
+    let job = |link: &Link| {
+        let mut cost = [0.0];
+        problem.inner.fitness(&row, &mut cost, link.cancel());
+        certified::certificate(&problem.inner, cost[0], tolerance, link.cancel())
+    };
+    let proof = in_pool(py, threads, None, true, job)?.0.map_err(to_python)?;
+    Ok((proof.lower, proof.gap, proof.certified, proof.evaluations))
 }

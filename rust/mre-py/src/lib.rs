@@ -5,15 +5,19 @@
 use pyo3::prelude::*;
 
 mod array;
+mod bounds;
 mod device;
 mod diagnose;
 mod error;
 mod fit;
+mod outcome;
 mod problem;
 mod recording;
 mod run;
 mod settings;
+mod stream;
 mod swarm;
+mod watch;
 
 #[pymodule]
 mod _core {
@@ -24,7 +28,7 @@ mod _core {
     #[pymodule_export]
     use crate::error::MreError;
     #[pymodule_export]
-    use crate::fit::{fit_exact, fit_hybrid};
+    use crate::fit::{certify, check_certifiable, fit_exact, fit_hybrid};
     #[pymodule_export]
     use crate::problem::Problem;
     #[pymodule_export]

@@ -6,13 +6,16 @@ use std::sync::Arc;
 use mre::fitness::{Problem as Core, Weights};
 use mre::model::Model;
 use numpy::PyArray1;
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::array;
+use crate::bounds::by_name;
 use crate::error::{setting, to_python};
 use crate::recording::Recording;
 use crate::run::{Link, in_pool};
+use crate::stream;
 
 /// Fitness of a model's parameters on recordings: eq. 5 of Yu, Li and Li (ISARC 2014); immutable.
 ///
@@ -72,15 +75,54 @@ impl Problem {
             Err(_) => recordings.extract::<Vec<Recording>>()?,
         };
         let model = Model::named(model).map_err(to_python)?;
-        let mut bounds: Vec<(String, f64, f64)> =
-            bounds.unwrap_or_default().into_iter().map(|(name, (low, high))| (name, low, high)).collect();
-        bounds.sort_by(|a, b| a.0.cmp(&b.0)); // the same error whatever the order of the hash
+        let bounds = by_name(bounds);
         let weights = to_weights(weights)?;
         let cores = recordings.iter().map(|r| Arc::clone(&r.inner)).collect();
         // A pool of its own: the global one does not survive a fork.
         let job = |_: &Link| Core::new(cores, model, &bounds, &weights);
         let inner = in_pool(py, None, None, true, job)?.0.map_err(to_python)?;
         Ok(Self { inner: Arc::new(inner), recordings })
+    }
+
+    /// Problem of the sinh model from samples that pass by once and are not kept.
+    ///
+    /// Every sample counts the same. Memory does not grow with their number, and an evaluation costs what
+    /// it costs on a few thousand. What has to be known beforehand is the largest displacement and, through it or as a
+    /// bound, the largest beta: they decide the polynomials by which sinh is represented. The default
+    /// box is that of `Problem` with the largest displacement given here.
+    ///
+    /// Parameters
+    /// ----------
+    /// chunks : iterable of Recording or of (displacement, velocity, force)
+    ///     Recordings, of which the scored samples count, or three arrays of shape (n,) in mm, mm/s and N
+    ///     with any n, such as `read_chunks` gives. The result does not depend on where they are cut.
+    /// largest_displacement : float
+    ///     mm; no displacement may be larger in absolute value.
+    /// bounds : mapping of name to (lower, upper), optional
+    ///     As in `Problem`; beta at most 25 / largest_displacement.
+    /// threads : int, optional
+    ///     All cores by default. The result does not depend on it.
+    ///
+    /// Returns
+    /// -------
+    /// Problem
+    ///     Without recordings. Its fitness is infinite for a beta above its bound. It cannot be pickled.
+    ///
+    /// Raises
+    /// ------
+    /// MreError
+    ///     A chunk, the largest displacement or a bound is not usable (a ValueError).
+    #[staticmethod]
+    #[pyo3(signature = (chunks, largest_displacement, bounds=None, *, threads=None))]
+    fn streamed(
+        py: Python<'_>,
+        chunks: &Bound<'_, PyAny>,
+        largest_displacement: f64,
+        bounds: Option<HashMap<String, (f64, f64)>>,
+        threads: Option<i64>,
+    ) -> PyResult<Self> {
+        let core = stream::read(py, chunks, largest_displacement, &by_name(bounds), threads)?;
+        Ok(Self { inner: Arc::new(core), recordings: Vec::new() })
     }
 
     #[getter]
@@ -156,6 +198,9 @@ impl Problem {
 
     /// For pickle.
     fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<NewArguments<'py>> {
+        if self.recordings.is_empty() {
+            return Err(PyTypeError::new_err("a streamed problem keeps no samples: it cannot be pickled"));
+        }
         let bounds: HashMap<String, (f64, f64)> =
             self.inner.parameters().iter().map(|p| (p.name.clone(), (p.lower, p.upper))).collect();
         let keywords = PyDict::new(py);
@@ -164,6 +209,10 @@ impl Problem {
     }
 
     fn __repr__(&self) -> String {
-        format!("Problem({}, {} recordings)", self.inner.model().name(), self.recordings.len())
+        let from = match self.recordings.len() {
+            0 => format!("{} samples streamed", self.inner.samples()),
+            count => format!("{count} recordings"),
+        };
+        format!("Problem({}, {from})", self.inner.model().name())
     }
 }

@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyInt};
 
 use crate::error::{setting, to_python};
+use crate::run::raises;
 
 fn count(name: &str, value: i64) -> PyResult<usize> {
     // Beyond ten million the swarm itself would not fit.
@@ -100,18 +101,43 @@ pub(crate) fn pso(settings: &Bound<'_, PyDict>) -> PyResult<PsoSettings> {
     Ok(settings)
 }
 
-/// Budgets as they come from Python.
-pub(crate) fn budget(evaluations: Option<i64>, time: Option<f64>, target: Option<f64>) -> PyResult<Budget> {
-    let evaluations = evaluations
-        .map(|n| u64::try_from(n).map_err(|_| setting("max_evaluations", n, "a whole number of at least 1")))
-        .transpose()?;
-    let time = time
-        .map(|s| {
-            Duration::try_from_secs_f64(s)
-                .map_err(|_| setting("time_limit", s, "a number of seconds above 0"))
-        })
-        .transpose()?;
-    let budget = Budget { evaluations, time, target };
-    budget.check().map_err(to_python)?;
-    Ok(budget)
+/// Options that every run takes.
+#[derive(Default)]
+pub(crate) struct RunOptions {
+    pub(crate) budget: Budget,
+    pub(crate) threads: Option<i64>,
+    pub(crate) callback: Option<Py<PyAny>>,
+    /// True where Ctrl-C raises, false where it returns the best so far.
+    pub(crate) raise: bool,
+}
+
+/// Options of a run from keywords, checked.
+pub(crate) fn run_options(keywords: Option<&Bound<'_, PyDict>>) -> PyResult<RunOptions> {
+    let mut options = RunOptions { raise: true, ..RunOptions::default() };
+    let Some(keywords) = keywords else { return Ok(options) };
+    for (name, value) in keywords.iter().filter(|(_, value)| !value.is_none()) {
+        match name.extract::<String>()?.as_str() {
+            "max_evaluations" => {
+                let wanted = "a whole number of at least 1";
+                let most: i64 = item(keywords, "max_evaluations", wanted)?;
+                let most = u64::try_from(most).map_err(|_| setting("max_evaluations", most, wanted))?;
+                options.budget.evaluations = Some(most);
+            }
+            "time_limit" => {
+                let most = number(keywords, "time_limit")?;
+                let time = Duration::try_from_secs_f64(most);
+                options.budget.time =
+                    Some(time.map_err(|_| setting("time_limit", most, "a number of seconds above 0"))?);
+            }
+            "target" => options.budget.target = Some(number(keywords, "target")?),
+            "threads" => options.threads = Some(whole(keywords, "threads")?),
+            "callback" => options.callback = Some(value.unbind()),
+            "on_interrupt" => options.raise = raises(&item::<String>(keywords, "on_interrupt", "a text")?)?,
+            other => {
+                return Err(PyTypeError::new_err(format!("got an unexpected keyword argument '{other}'")));
+            }
+        }
+    }
+    options.budget.check().map_err(to_python)?;
+    Ok(options)
 }

@@ -3,20 +3,21 @@
 use std::cell::RefCell;
 use std::sync::{Mutex, MutexGuard};
 
-use mre::parameter::{Bounds, Scale};
-use mre::swarm::{
-    FishSwarm, History, Monitor, ParticleSwarm, Progress, StopReason, Stream, Swarm as Core, run,
-};
+use mre::parameter::Bounds;
+use mre::swarm::{FishSwarm, ParticleSwarm, Stream, Swarm as Core, run};
 use numpy::{PyArray1, PyArray2};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::array::{matrix, rows, vector};
+use crate::array::{matrix, vector};
+use crate::bounds::{read_box, read_start};
 use crate::error::{MreError, setting, to_python};
+use crate::outcome::{history_to_python, name_of};
 use crate::problem::Problem;
-use crate::run::{Ended, call, in_pool, raises};
-use crate::settings::{budget, fish, pso};
+use crate::run::{Ended, in_pool};
+use crate::settings::{RunOptions, fish, pso, run_options};
+use crate::watch::Watch;
 
 /// A swarm in a box; used once.
 #[pyclass(frozen, module = "mre_core._core")]
@@ -25,49 +26,14 @@ pub(crate) struct Swarm {
     state: Mutex<Box<dyn Core>>,
 }
 
-/// Where an optimisation starts.
-pub(crate) fn read_start(x0: &Bound<'_, PyAny>, dimension: usize) -> PyResult<Vec<f64>> {
-    let (row, _) = rows("x0", x0, dimension)?;
-    match row.iter().find(|value| !value.is_finite()) {
-        Some(bad) => Err(setting("x0", bad, "finite numbers")),
-        None => Ok(row),
-    }
-}
-
-/// Columns of a history.
-pub(crate) fn history_to_python<'py>(py: Python<'py>, history: &History) -> PyResult<Bound<'py, PyDict>> {
-    let dict = PyDict::new(py);
-    dict.set_item("best", PyArray1::from_slice(py, &history.best))?;
-    dict.set_item("mean", PyArray1::from_slice(py, &history.mean))?;
-    dict.set_item("evaluations", PyArray1::from_slice(py, &history.evaluations))?;
-    dict.set_item("range", PyArray1::from_slice(py, &history.range))?;
-    dict.set_item("step", PyArray1::from_slice(py, &history.step))?;
-    Ok(dict)
-}
-
-/// The name of a reason in Python.
-pub(crate) fn name_of(reason: StopReason, ended: Ended) -> &'static str {
-    match (reason, ended) {
-        (StopReason::Interrupted, Ended::ByCallback) => "callback",
-        (StopReason::Interrupted, _) => "interrupted",
-        (StopReason::Iterations, _) => "max_iterations",
-        (StopReason::Evaluations, _) => "max_evaluations",
-        (StopReason::Time, _) => "time_limit",
-        (StopReason::Target, _) => "target",
-    }
-}
-
 impl Swarm {
     fn lock(&self) -> PyResult<MutexGuard<'_, Box<dyn Core>>> {
         self.state.try_lock().map_err(|_| PyRuntimeError::new_err("this swarm is running in another thread"))
     }
 
     fn to_physical(&self, unit: &[f64]) -> Vec<f64> {
-        let d = self.bounds.len();
         let mut physical = vec![0.0; unit.len()];
-        for (unit, physical) in unit.chunks_exact(d).zip(physical.chunks_exact_mut(d)) {
-            self.bounds.to_physical(unit, physical);
-        }
+        self.bounds.to_physical(unit, &mut physical);
         physical
     }
 
@@ -113,26 +79,7 @@ impl Swarm {
     ) -> PyResult<Self> {
         let bounds = match (problem, lower, upper) {
             (Some(problem), ..) => problem.inner.bounds().clone(),
-            (None, Some(lower), Some(upper)) => {
-                let (lower, upper) = (vector("lower", lower)?, vector("upper", upper)?);
-                if lower.len() != upper.len() {
-                    return Err(setting(
-                        "length of upper",
-                        upper.len(),
-                        &format!("{}, as lower", lower.len()),
-                    ));
-                }
-                let names = names.unwrap_or_else(|| (0..lower.len()).map(|i| format!("x[{i}]")).collect());
-                if names.len() != lower.len() {
-                    return Err(setting(
-                        "number of names",
-                        names.len(),
-                        &format!("{}, one a bound", lower.len()),
-                    ));
-                }
-                let scale = vec![Scale::Linear; lower.len()];
-                Bounds::new(&names, lower, upper, scale).map_err(to_python)?
-            }
+            (None, Some(lower), Some(upper)) => read_box(lower, upper, names)?,
             _ => return Err(setting("bounds", "missing", "a pair (lower, upper) for each parameter")),
         };
         let start = start
@@ -208,22 +155,15 @@ impl Swarm {
         Ok(dict)
     }
 
-    /// Run on a problem, detached from the interpreter. Returns why it stopped.
-    #[pyo3(signature = (problem, *, max_evaluations=None, time_limit=None, target=None, threads=None, callback=None, on_interrupt="raise"))]
-    #[allow(clippy::too_many_arguments, clippy::needless_pass_by_value)]
+    /// Run on a problem, detached from the interpreter; keywords as in `RunOptions`. Returns why it stopped.
+    #[pyo3(signature = (problem, **options))]
     fn run_problem(
         &self,
         py: Python<'_>,
         problem: &Problem,
-        max_evaluations: Option<i64>,
-        time_limit: Option<f64>,
-        target: Option<f64>,
-        threads: Option<i64>,
-        callback: Option<Py<PyAny>>,
-        on_interrupt: &str,
+        options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<&'static str> {
-        let budget = budget(max_evaluations, time_limit, target)?;
-        let raise = raises(on_interrupt)?;
+        let RunOptions { budget, threads, callback, raise } = run_options(options)?;
         let d = self.bounds.len();
         let mut state = self.lock()?;
         let swarm: &mut dyn Core = &mut **state;
@@ -231,9 +171,7 @@ impl Swarm {
             let mut physical = Vec::new();
             let mut evaluate = |unit: &[f64], costs: &mut [f64]| {
                 physical.resize(unit.len(), 0.0);
-                for (unit, physical) in unit.chunks_exact(d).zip(physical.chunks_exact_mut(d)) {
-                    self.bounds.to_physical(unit, physical);
-                }
+                self.bounds.to_physical(unit, &mut physical);
                 problem.inner.fitness(&physical, costs, link.cancel());
             };
             let mut monitor = link;
@@ -242,21 +180,17 @@ impl Swarm {
         Ok(name_of(reason, ended))
     }
 
-    /// Run on a Python function of a generation, called on this thread. Returns why it stopped.
-    #[pyo3(signature = (function, *, max_evaluations=None, time_limit=None, target=None, callback=None, on_interrupt="raise"))]
-    #[allow(clippy::too_many_arguments, clippy::needless_pass_by_value)]
+    /// Run on a Python function of a generation, called on this thread; keywords as in `RunOptions`.
+    /// Returns why it stopped.
+    #[pyo3(signature = (function, **options))]
+    #[allow(clippy::needless_pass_by_value)] // taken over from Python
     fn run_function(
         &self,
         py: Python<'_>,
         function: Py<PyAny>,
-        max_evaluations: Option<i64>,
-        time_limit: Option<f64>,
-        target: Option<f64>,
-        callback: Option<Py<PyAny>>,
-        on_interrupt: &str,
+        options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<&'static str> {
-        let budget = budget(max_evaluations, time_limit, target)?;
-        let raise = raises(on_interrupt)?;
+        let RunOptions { budget, callback, raise, .. } = run_options(options)?;
         let failure = RefCell::new(None);
         let mut state = self.lock()?;
         let mut evaluate = |unit: &[f64], costs: &mut [f64]| {
@@ -272,32 +206,6 @@ impl Swarm {
             Some(error) if raise || !error.is_instance_of::<PyKeyboardInterrupt>(py) => Err(error),
             _ => Ok(name_of(reason, ended)),
         }
-    }
-}
-
-/// Watches a run on a Python function, on the thread that runs it.
-struct Watch<'a, 'py> {
-    py: Python<'py>,
-    callback: Option<&'a Py<PyAny>>,
-    failure: &'a RefCell<Option<PyErr>>,
-    ended: Ended,
-}
-
-impl Monitor for Watch<'_, '_> {
-    fn broken_off(&self) -> bool {
-        self.failure.borrow().is_some()
-    }
-
-    fn go_on(&mut self, progress: Progress) -> bool {
-        if self.broken_off() {
-            return false;
-        }
-        match self.callback.map_or(Ok(false), |callback| call(self.py, callback, progress)) {
-            Ok(false) => return true,
-            Ok(true) => self.ended = Ended::ByCallback,
-            Err(error) => *self.failure.borrow_mut() = Some(error),
-        }
-        false
     }
 }
 

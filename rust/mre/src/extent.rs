@@ -80,12 +80,17 @@ impl Extent {
                 right += row * *f;
             }
         }
+        self.settle(&matrix, &right);
+        Ok(())
+    }
+
+    /// From the products of the columns `v`, `x / X`, 1, `sinh(x / X)`, and theirs with the force.
+    pub(crate) fn settle(&mut self, matrix: &Matrix4<f64>, right: &Vector4<f64>) {
         let line = matrix.fixed_view::<3, 3>(0, 0).into_owned().cholesky();
         let offset = line.map_or(0.0, |factor| factor.solve(&right.fixed_rows::<3>(0).into_owned())[2]);
         self.offset = offset.clamp(-self.force, self.force);
         self.lean = (matrix[(1, 2)] / matrix[(2, 2)]).abs();
-        self.softens = matrix.cholesky().is_some_and(|factor| factor.solve(&right)[3] < 0.0);
-        Ok(())
+        self.softens = matrix.cholesky().is_some_and(|factor| factor.solve(right)[3] < 0.0);
     }
 }
 

@@ -84,15 +84,18 @@ impl Bounds {
         self.lower.is_empty()
     }
 
-    /// From the unit box to the parameters. Never outside the box, and exact at its ends.
+    /// From rows of the unit box to rows of parameters. Never outside the box, and exact at its ends.
     pub fn to_physical(&self, unit: &[f64], out: &mut [f64]) {
-        for (i, u) in unit.iter().enumerate() {
-            let (low, high) = (self.lower[i], self.upper[i]);
-            let value = match self.scale[i] {
-                Scale::Linear => low + u * (high - low),
-                Scale::Log => low * (high / low).powf(*u),
-            };
-            out[i] = if *u >= 1.0 { high } else { value.clamp(low, high) };
+        let d = self.len();
+        for (unit, out) in unit.chunks_exact(d).zip(out.chunks_exact_mut(d)) {
+            for (i, u) in unit.iter().enumerate() {
+                let (low, high) = (self.lower[i], self.upper[i]);
+                let value = match self.scale[i] {
+                    Scale::Linear => low + u * (high - low),
+                    Scale::Log => low * (high / low).powf(*u),
+                };
+                out[i] = if *u >= 1.0 { high } else { value.clamp(low, high) };
+            }
         }
     }
 

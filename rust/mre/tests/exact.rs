@@ -4,15 +4,22 @@
 mod common;
 
 use common::{Bounds, Trial, by_the_book, fitness, problem, with_threads};
-use mre::fit::certified::{Exact, certificate, exact};
+use mre::fit::certified::{Certificate, certificate, exact};
 use mre::fitness::{Problem, Weights};
+use mre::model::Model;
 use mre::recording::{Condition, Recording, Series};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 fn example() -> Trial {
     Trial { samples: 1000, stroke: 4.0, truth: [1.1, 13.7, 14.6, 0.3, 1.0], noise: 1e-2, seed: 1 }
+}
+
+/// The certificate of a fitness.
+fn proven(problem: &Problem, cost: f64) -> Certificate {
+    certificate(problem, cost, 1e-9, &AtomicBool::new(false)).unwrap()
 }
 
 /// Least cost over a grid of beta and, at each, over all faces of the box of the linear coefficients.
@@ -98,7 +105,7 @@ fn without_noise_it_is_the_truth() {
         assert!((value / truth - 1.0).abs() < 1e-9, "{found:?}");
     }
     assert!(found.cost < 1e-24);
-    assert!(certificate(&problem, &found, 1e-9).unwrap().certified);
+    assert!(proven(&problem, found.cost).certified);
 }
 
 #[test]
@@ -119,7 +126,7 @@ fn active_bounds_are_honoured() {
         check(&problem, 200);
         let found = exact(&problem).unwrap();
         assert!(problem.bounds().on_bound(&found.values).iter().any(|side| *side != 0), "{found:?}");
-        let proof = certificate(&problem, &found, 1e-9).unwrap();
+        let proof = proven(&problem, found.cost);
         assert!(proof.certified, "{bounds:?} {found:?} {proof:?}");
     }
 }
@@ -141,7 +148,7 @@ fn beta_up_to_overflow_is_searched_sample_by_sample() {
         let problem = problem(
             "sinh",
             &[Trial { truth, ..trial.clone() }.recording()],
-            &[("beta", 0.05, 1e6), ("alpha", 0.0, 100.0)],
+            &[("beta", 0.05, 178.0), ("alpha", 0.0, 100.0)],
             &Weights::Samples,
         );
         let found = exact(&problem).unwrap();
@@ -150,8 +157,37 @@ fn beta_up_to_overflow_is_searched_sample_by_sample() {
         assert!((found.cost - book).abs() <= 1e-9 * book);
         assert!(found.cost <= by_the_book(&problem, &truth));
     }
-    let bad = problem("sinh", &[trial.recording()], &[("beta", 1e3, 1e6)], &Weights::Samples);
-    assert!(exact(&bad).unwrap_err().to_string().contains("overflows"));
+    let bad = [("beta".to_owned(), 0.05, 1e6)];
+    let refused =
+        Problem::new(vec![trial.recording()], Model::named("sinh").unwrap(), &bad, &Weights::Samples);
+    let text = refused.unwrap_err().to_string();
+    assert!(
+        text.starts_with("bound of beta is 0.05:1000000: at most 17") && text.contains("overflows"),
+        "{text}"
+    );
+}
+
+#[test]
+fn what_is_not_the_optimum_is_not_certified() {
+    for (model, at) in [("sinh", 2), ("kelvin_voigt", 1)] {
+        let problem = problem(model, &[example().recording()], &[], &Weights::Samples);
+        let found = exact(&problem).unwrap();
+        let mut near = found.values.clone();
+        near[at] *= 1.01;
+        let cost = fitness(&problem, &near)[0];
+        let proof = proven(&problem, cost);
+        assert!(!proof.certified && proof.gap > 1e-6, "{proof:?}");
+        assert!(proof.lower <= found.cost * (1.0 + 1e-12), "{proof:?} {found:?}");
+    }
+}
+
+#[test]
+fn a_tolerance_is_a_share() {
+    let problem = problem("sinh", &[example().recording()], &[], &Weights::Samples);
+    for wrong in [-1e-9, 0.0, 1.0, f64::NAN] {
+        let error = certificate(&problem, 1.0, wrong, &AtomicBool::new(false)).unwrap_err();
+        assert_eq!(error.to_string(), format!("tolerance is {wrong}: a number above 0 and below 1"));
+    }
 }
 
 #[test]
@@ -159,7 +195,7 @@ fn a_certificate_needs_no_compression() {
     let trial = Trial { samples: 300, noise: 1e-3, truth: [1.1, 13.7, 1e-12, 8.0, 1.0], ..example() };
     let problem = problem("sinh", &[trial.recording()], &[("beta", 0.05, 10.0)], &Weights::Samples);
     let found = exact(&problem).unwrap();
-    let proof = certificate(&problem, &found, 1e-9).unwrap();
+    let proof = proven(&problem, found.cost);
     assert!(proof.certified, "{proof:?}");
 }
 
@@ -170,7 +206,7 @@ fn a_few_samples_are_enough() {
         let problem = problem("sinh", &[trial.recording()], &[], &Weights::Samples);
         check(&problem, 200);
         let found = exact(&problem).unwrap();
-        assert!(certificate(&problem, &found, 1e-9).unwrap().certified);
+        assert!(proven(&problem, found.cost).certified);
     }
 }
 
@@ -186,7 +222,7 @@ fn kelvin_voigt_is_one_projection() {
             assert!(fitness(&problem, &row)[0] > found.cost);
         }
     }
-    assert!(certificate(&problem, &found, 1e-9).unwrap().certified);
+    assert!(proven(&problem, found.cost).certified);
 }
 
 #[test]
@@ -194,7 +230,7 @@ fn other_problems_are_named() {
     let wrong = problem("bouc_wen", &[example().recording()], &[], &Weights::Samples);
     assert_eq!(
         exact(&wrong).unwrap_err().to_string(),
-        "model is 'bouc_wen': the exact optimum is known for kelvin_voigt and sinh"
+        "model is 'bouc_wen': a proven optimum exists for kelvin_voigt and sinh only"
     );
     let still = example().recording();
     let current = (0..still.len()).map(|i| if i < 500 { 0.0 } else { 2.0 }).collect();
@@ -210,8 +246,8 @@ fn other_problems_are_named() {
     };
     let changing = Arc::new(Recording::new(series).unwrap());
     let wrong = problem("sinh", &[changing], &[], &Weights::Samples);
-    let found = Exact { values: vec![0.0; 7], cost: 1.0, evaluations: 0 };
-    for error in [exact(&wrong).unwrap_err(), certificate(&wrong, &found, 1e-9).unwrap_err()] {
+    let proof = certificate(&wrong, 1.0, 1e-9, &AtomicBool::new(false));
+    for error in [exact(&wrong).unwrap_err(), proof.unwrap_err()] {
         assert!(error.to_string().starts_with("current is changing"));
     }
 }
@@ -257,7 +293,7 @@ proptest! {
         let problem = problem("sinh", &recordings, &bounds, &Weights::Force);
         check(&problem, 60);
         let found = exact(&problem).unwrap();
-        let proof = certificate(&problem, &found, 1e-9).unwrap();
+        let proof = proven(&problem, found.cost);
         prop_assert!(proof.certified, "{found:?} {proof:?}");
         prop_assert!(proof.lower <= found.cost);
     }

@@ -9,10 +9,10 @@ use crate::parameter::Parameter;
 
 /// A pure delay between the channels.
 #[derive(Debug, Clone, Copy)]
-pub struct TimeDelay;
+pub(super) struct TimeDelay;
 
 /// The series at `time - delay`, by local cubics (Catmull-Rom); held constant beyond its ends.
-pub(crate) fn delayed(step: f64, series: &[f64], delay: f64) -> Vec<f64> {
+pub(super) fn delayed(step: f64, series: &[f64], delay: f64) -> Vec<f64> {
     let n = series.len() as isize;
     let shift = delay / step;
     let at = |i: isize| series[i.clamp(0, n - 1) as usize];

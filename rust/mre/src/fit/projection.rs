@@ -7,6 +7,7 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::bounded;
+use super::certified::{Curve, Kind};
 use crate::fitness::Problem;
 use crate::kernel::LANES;
 use crate::kernel::bouc_wen_gram::products;
@@ -21,6 +22,8 @@ pub(crate) struct Projection<'a> {
     coefficients: Vec<usize>,
     /// For the simulations of Bouc-Wen, one a recording: its plan, and the products that no shape changes.
     lanes: Vec<(Plan, Gram)>,
+    /// For the sinh model, which needs neither columns nor their products.
+    curve: Option<Curve<'a>>,
     cancel: &'a AtomicBool,
 }
 
@@ -36,7 +39,8 @@ impl<'a> Projection<'a> {
         } else {
             Vec::new()
         };
-        Self { problem, shapes: places(true), coefficients: places(false), lanes, cancel }
+        let curve = (Kind::of(problem) == Kind::Sinh).then(|| Curve::new(problem));
+        Self { problem, shapes: places(true), coefficients: places(false), lanes, curve, cancel }
     }
 
     /// Number of shapes.
@@ -52,8 +56,7 @@ impl<'a> Projection<'a> {
         }
         let rows: Vec<Vec<f64>> = unit.chunks_exact(d).map(|row| self.physical(row)).collect();
         if self.lanes.is_empty() || *self.problem.law() != Law::Shared {
-            let cost =
-                |row: &Vec<f64>| if self.cancelled() { f64::NAN } else { self.best(row, &self.gram(row)).1 };
+            let cost = |row: &Vec<f64>| if self.cancelled() { f64::NAN } else { self.candidate(row).1 };
             return rows.par_iter().map(cost).collect();
         }
         rows.par_chunks(LANES)
@@ -73,8 +76,16 @@ impl<'a> Projection<'a> {
 
     /// All parameters for shapes in the unit box, with the best coefficients, and their cost.
     pub(crate) fn solve(&self, unit: &[f64]) -> (Vec<f64>, f64) {
-        let row = self.physical(unit);
-        self.best(&row, &self.gram(&row))
+        self.candidate(&self.physical(unit))
+    }
+
+    /// Best coefficients for a row of shapes, put into it, and their cost.
+    fn candidate(&self, row: &[f64]) -> (Vec<f64>, f64) {
+        let Some(curve) = &self.curve else { return self.best(row, &self.gram(row)) };
+        let point = curve.point(row[3] * curve.farthest);
+        let mut parameters = curve.values(&point);
+        parameters[3] = row[3]; // on its bound to the last bit
+        (parameters, point.cost)
     }
 
     /// Shapes of given parameters in the unit box.

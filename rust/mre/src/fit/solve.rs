@@ -2,7 +2,7 @@
 
 use std::sync::atomic::AtomicBool;
 
-use super::certified;
+use super::certified::{self, Kind};
 use super::descent::{Point, descend};
 use super::projection::Projection;
 use crate::error::Result;
@@ -34,16 +34,15 @@ pub struct Fit {
 ///
 /// After `cancel` is set it ends soon, with the best so far.
 pub fn exact(problem: &Problem, cancel: &AtomicBool) -> Fit {
-    if let Ok(found) = certified::exact(problem) {
-        let certified::Exact { values, cost, evaluations } = found;
-        return Fit {
-            values,
-            cost,
-            evaluations,
-            reason: StopReason::Iterations,
-            history: History::default(),
-        };
-    }
+    let certified::Exact { values, cost, evaluations } = match Kind::of(problem) {
+        Kind::Linear => certified::linear(problem),
+        Kind::Sinh => certified::sinh(problem),
+        Kind::Other => return scan_and_descend(problem, cancel),
+    };
+    Fit { values, cost, evaluations, reason: StopReason::Iterations, history: History::default() }
+}
+
+fn scan_and_descend(problem: &Problem, cancel: &AtomicBool) -> Fit {
     let projection = Projection::new(problem, cancel);
     let d = projection.dimension();
     let mut scan = Vec::new();

@@ -13,8 +13,10 @@
 
 use super::elementary::fma;
 
-/// Most terms of the series: b up to 25. Wider boxes are left to the direct kernel.
+/// Most terms of the series: b up to [`LARGEST`]. Wider boxes are left to the direct kernel.
 pub(crate) const MOST_NODES: usize = 32;
+/// Largest b for which they are surely enough.
+pub(crate) const LARGEST: f64 = 25.0;
 /// Largest relative error of the series that is cut: that of one rounding.
 const TOLERANCE: f64 = f64::EPSILON / 2.0;
 

@@ -20,8 +20,11 @@ pub(crate) struct Plan {
 
 impl Plan {
     pub(crate) fn new(recording: &Recording) -> Self {
-        let velocity = recording.velocity();
-        let step: Vec<f64> = recording.time().windows(2).map(|pair| pair[1] - pair[0]).collect();
+        Self::of(recording.time(), recording.velocity())
+    }
+
+    fn of(time: &[f64], velocity: &[f64]) -> Self {
+        let step: Vec<f64> = time.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let demand: Vec<f64> = velocity
             .windows(2)
             .zip(&step)
@@ -68,8 +71,8 @@ pub(super) fn rk4<const FUSED: bool>(w: f64, v0: f64, v1: f64, h: f64, shape: [f
 
 /// The hysteretic variable at every sample, from rest; infinite throughout where the samples are too
 /// far apart for these parameters.
-pub(crate) fn trace(recording: &Recording, shape: [f64; 3], out: &mut [f64]) {
-    let (plan, velocity) = (Plan::new(recording), recording.velocity());
+pub(crate) fn trace(time: &[f64], velocity: &[f64], shape: [f64; 3], out: &mut [f64]) {
+    let plan = Plan::of(time, velocity);
     let stiffness = stiffness(shape);
     if plan.too_coarse(stiffness) {
         out.fill(f64::INFINITY);

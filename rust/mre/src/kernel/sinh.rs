@@ -43,6 +43,22 @@ impl Sinh {
         }
     }
 
+    /// From samples that are not kept; candidates with a larger beta cost infinity.
+    pub(crate) fn streamed(compressed: SinhCompressed, samples: usize) -> Self {
+        Self {
+            recordings: Vec::new(),
+            weights: Vec::new(),
+            direct: OnceLock::new(),
+            compressed: Some(compressed),
+            samples,
+        }
+    }
+
+    /// Number of samples.
+    pub(crate) fn samples(&self) -> usize {
+        self.samples
+    }
+
     /// Weighted sums of squares of candidates `[c0, k0, alpha, beta, F0]`, in parallel. After `cancel`
     /// is set, NaN stands for those that were not evaluated.
     pub(crate) fn sums_of_squares(&self, rows: &[f64], out: &mut [f64], cancel: &AtomicBool) {
@@ -79,6 +95,9 @@ impl Sinh {
     }
 
     fn direct(&self, row: &[f64]) -> f64 {
+        if self.recordings.is_empty() {
+            return f64::INFINITY;
+        }
         let direct = self.direct.get_or_init(|| self.recordings.iter().map(|r| SinhDirect::new(r)).collect());
         direct.iter().zip(&self.weights).map(|(k, w)| w * k.sum_of_squares(row)).sum()
     }

@@ -22,7 +22,7 @@ const GROUP: usize = 4;
 /// Samples of one leaf of the tree of factors: fixed, so that the tree is.
 const LEAF: usize = 64 * ROWS;
 /// Columns beside the Chebyshev polynomials: v, 1, F.
-const OTHERS: usize = 3;
+pub(crate) const OTHERS: usize = 3;
 
 /// All scored samples of a problem in one triangular factor.
 #[derive(Debug, Clone)]
@@ -44,7 +44,12 @@ impl SinhCompressed {
         let farthest = farthest(recordings);
         let largest = largest_beta.abs() * farthest;
         let nodes = if farthest > 0.0 { nodes(largest)? } else { return None };
-        let triangle = factor(recordings, weights, farthest, nodes);
+        Some(Self::from_triangle(factor(recordings, weights, farthest, nodes), nodes, farthest, largest_beta))
+    }
+
+    /// From a factor of `[v, 1, T1(x / farthest), T3, ..., F]`, for candidates with beta up to
+    /// `largest_beta`.
+    pub(crate) fn from_triangle(triangle: Triangle, nodes: usize, farthest: f64, largest_beta: f64) -> Self {
         let n = triangle.columns();
         let mut packed = Vec::with_capacity(n * n / 2 + n * GROUP);
         for first in (0..n).step_by(GROUP) {
@@ -53,8 +58,8 @@ impl SinhCompressed {
                 packed.push(std::array::from_fn(|r| entry(first + r)));
             }
         }
-        let (bessel, isa) = (Bessel::new(nodes, largest), dispatch::best());
-        Some(Self { triangle, packed, bessel, farthest, largest_beta: largest_beta.abs(), isa })
+        let (bessel, isa) = (Bessel::new(nodes, largest_beta.abs() * farthest), dispatch::best());
+        Self { triangle, packed, bessel, farthest, largest_beta: largest_beta.abs(), isa }
     }
 
     /// True for a candidate that this kernel can evaluate.
@@ -83,6 +88,22 @@ impl SinhCompressed {
     /// The factor of `[v, 1, T1, T3, ..., F]`.
     pub(crate) fn triangle(&self) -> &Triangle {
         &self.triangle
+    }
+
+    /// Coordinates of `sum_k 2 orders[2k+1] T_(2k+1)`: of sinh(b t) for Bessel functions of b.
+    pub(crate) fn series(&self, orders: &[f64], out: &mut [f64]) {
+        let n = self.triangle.columns();
+        for (i, value) in out[..n].iter_mut().enumerate() {
+            let first = i.max(2);
+            let row = &self.triangle.row(i)[first - i..n - 1 - i];
+            let odd = orders[2 * first - 3..].iter().step_by(2);
+            *value = row.iter().zip(odd).map(|(r, order)| 2.0 * r * order).sum();
+        }
+    }
+
+    /// Largest displacement, mm.
+    pub(crate) fn farthest(&self) -> f64 {
+        self.farthest
     }
 
     /// The Bessel functions of the box.
@@ -144,19 +165,40 @@ pub(crate) fn factor(
     let mut leaves = Vec::new();
     for (recording, weight) in recordings.iter().zip(weights) {
         let scored = recording.scored();
-        leaves.extend(scored.clone().step_by(LEAF).map(|first| Leaf {
-            recording,
-            samples: first..(first + LEAF).min(scored.end),
-            scale: weight.sqrt(),
-            farthest,
-        }));
+        let motion = Motion {
+            displacement: &recording.displacement()[scored.clone()],
+            velocity: &recording.velocity()[scored.clone()],
+            force: &recording.force().unwrap_or_default()[scored],
+        };
+        leaves.extend(motion.leaves(weight.sqrt(), farthest));
     }
     tree(&leaves, nodes)
 }
 
-/// A part of a recording.
-struct Leaf<'a> {
-    recording: &'a Recording,
+/// Samples, in series of one length.
+#[derive(Clone, Copy)]
+pub(crate) struct Motion<'a> {
+    /// mm
+    pub(crate) displacement: &'a [f64],
+    /// mm/s
+    pub(crate) velocity: &'a [f64],
+    /// N
+    pub(crate) force: &'a [f64],
+}
+
+impl<'a> Motion<'a> {
+    /// In parts of a fixed length; rows are multiplied by `scale`.
+    pub(crate) fn leaves(self, scale: f64, farthest: f64) -> impl Iterator<Item = Leaf<'a>> {
+        (0..self.force.len()).step_by(LEAF).map(move |first| {
+            let samples = first..(first + LEAF).min(self.force.len());
+            Leaf { motion: self, samples, scale, farthest }
+        })
+    }
+}
+
+/// A part of a motion.
+pub(crate) struct Leaf<'a> {
+    motion: Motion<'a>,
     samples: Range<usize>,
     scale: f64,
     farthest: f64,
@@ -164,7 +206,7 @@ struct Leaf<'a> {
 
 /// Factors of the leaves, joined in pairs: a tree that only the samples decide, short so that
 /// roundings do not add up, in parallel.
-fn tree(leaves: &[Leaf<'_>], nodes: usize) -> Triangle {
+pub(crate) fn tree(leaves: &[Leaf<'_>], nodes: usize) -> Triangle {
     let [leaf] = leaves else {
         let (left, right) = leaves.split_at(leaves.len() / 2);
         if left.is_empty() {
@@ -193,11 +235,10 @@ fn fill_generic<const FUSED: bool>(leaf: &Leaf<'_>, samples: Range<usize>, block
             *to = leaf.scale * from;
         }
     };
-    let force = leaf.recording.force().unwrap_or_default();
-    let x = &leaf.recording.displacement()[samples.clone()];
-    scaled(&leaf.recording.velocity()[samples.clone()], &mut block[..rows]);
+    let x = &leaf.motion.displacement[samples.clone()];
+    scaled(&leaf.motion.velocity[samples.clone()], &mut block[..rows]);
     block[ROWS..ROWS + rows].fill(leaf.scale);
-    scaled(&force[samples], &mut block[(n - 1) * ROWS..(n - 1) * ROWS + rows]);
+    scaled(&leaf.motion.force[samples], &mut block[(n - 1) * ROWS..(n - 1) * ROWS + rows]);
     // T_(m+2) = (4 t^2 - 2) T_m - T_(m-2), with T_-1 = T_1.
     let (mut turn, mut before, mut now) = ([0.0; ROWS], [0.0; ROWS], [0.0; ROWS]);
     for (i, x) in x.iter().enumerate() {

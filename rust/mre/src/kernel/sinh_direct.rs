@@ -2,12 +2,11 @@
 
 use super::dispatch::{self, Isa, for_every_isa};
 use super::elementary::{fma, sinh_lane};
+use crate::physics::SINH_LARGEST;
 use crate::recording::Recording;
 
 /// Samples whose squares are added side by side: enough to hide the latency of the addition.
 const LANES: usize = 32;
-/// Largest |beta x| of the lane version of sinh.
-const LARGEST: f64 = 700.0;
 
 /// The scored samples of a recording, packed.
 #[derive(Debug, Clone)]
@@ -37,7 +36,7 @@ impl SinhDirect {
     /// Sum of squared errors of `[c0, k0, alpha, beta, F0]`; infinite where sinh overflows.
     pub(crate) fn sum_of_squares(&self, x: &[f64]) -> f64 {
         let candidate = [x[0], x[1], x[2], x[3], x[4]];
-        if candidate[3].abs() * self.farthest > LARGEST {
+        if candidate[3].abs() * self.farthest > SINH_LARGEST {
             return f64::INFINITY;
         }
         sum(self.isa, &self.displacement, &self.velocity, &self.force, candidate)

@@ -51,6 +51,12 @@ impl Triangle {
         reflect(self.isa, &mut self.factor, &mut self.block, rows.min(ROWS).div_ceil(LANES) * LANES);
     }
 
+    /// The factor of the same rows, all multiplied by a number.
+    pub(crate) fn scaled(mut self, by: f64) -> Self {
+        self.factor.iter_mut().for_each(|entry| *entry *= by);
+        self
+    }
+
     /// Work in the rows of another factor with as many columns.
     pub(crate) fn join(&mut self, other: &Self) {
         let n = self.columns;

@@ -62,7 +62,8 @@ impl Term for BoucWen {
     }
 
     fn column(&self, recording: &Recording, shape: &[f64], out: &mut [f64]) {
-        hysteretic::trace(recording, [shape[0], shape[1], shape[2]], out);
+        let (time, velocity) = (recording.time(), recording.velocity());
+        hysteretic::trace(time, velocity, [shape[0], shape[1], shape[2]], out);
     }
 }
 

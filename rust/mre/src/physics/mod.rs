@@ -12,7 +12,7 @@ mod spring;
 pub use bouc_wen::{BoucWen, Classical, STEP as BOUC_WEN_STEP};
 pub use dashpot::Dashpot;
 pub use offset::Offset;
-pub use sinh::Sinh;
+pub use sinh::{LARGEST as SINH_LARGEST, Sinh};
 pub use spring::Spring;
 
 use crate::extent::Extent;

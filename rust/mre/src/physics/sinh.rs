@@ -14,6 +14,9 @@ use crate::kernel::elementary;
 use crate::parameter::{Parameter, Scale};
 use crate::recording::Recording;
 
+/// Largest `|beta x|`: beyond, sinh overflows.
+pub const LARGEST: f64 = 700.0;
+
 /// Hyperbolic-sine spring.
 #[derive(Debug, Clone, Copy)]
 pub struct Sinh;

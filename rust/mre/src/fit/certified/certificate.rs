@@ -16,9 +16,11 @@
 //! Intervals of b are halved until the bound reaches the cost that was found. True to rounding (about
 //! 1e-12 of the cost).
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use super::sinh_curve::{Columns, Curve, dot};
-use super::{Exact, Kind, sinh_exact};
-use crate::error::Result;
+use super::{Kind, sinh_exact};
+use crate::error::{Error, Result};
 use crate::fitness::Problem;
 
 /// Most intervals: some tenths of a second on a compressed problem.
@@ -28,7 +30,7 @@ const MOST_PASSES: u64 = 10_000;
 /// Share of the squared force below which a cost is rounding.
 const NOTHING: f64 = 1e-26;
 
-/// How much better than the optimum that was found any other parameters can be at most.
+/// How much better than what was found any other parameters can be at most.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Certificate {
     /// Fitness that nothing in the box can go below, N^2.
@@ -41,38 +43,59 @@ pub struct Certificate {
     pub evaluations: u64,
 }
 
-/// Bound the fitness from below over the whole box, until the gap to `exact` is within `tolerance`
-/// (such as 1e-9) or the effort is spent.
+/// Bound the fitness from below over the whole box, until the gap to `cost`, the fitness that some
+/// parameters have, or to the optimum is within `tolerance` (such as 1e-9), or the effort is spent.
 ///
-/// The linear model needs no proof: its cost is convex.
+/// The linear model needs no search: its cost is convex. After `cancel` is set it ends soon.
 ///
 /// # Errors
-/// As [`super::exact`].
-pub fn certificate(problem: &Problem, exact: &Exact, tolerance: f64) -> Result<Certificate> {
-    if matches!(Kind::of(problem)?, Kind::Linear) {
-        return Ok(Certificate { lower: exact.cost, gap: 0.0, certified: true, evaluations: 0 });
+/// As [`super::exact`], a cost that is not finite, or a tolerance that is not above 0 and below 1.
+pub fn certificate(problem: &Problem, cost: f64, tolerance: f64, cancel: &AtomicBool) -> Result<Certificate> {
+    if !(tolerance > 0.0 && tolerance < 1.0) {
+        return Err(Error::setting("tolerance", tolerance, "a number above 0 and below 1"));
     }
+    if !cost.is_finite() {
+        return Err(Error::setting("fitness", cost, "a finite number, as parameters in the box have it"));
+    }
+    match Kind::of(problem) {
+        Kind::Linear => Ok(Certificate::new(cost, super::linear(problem).cost.min(cost), tolerance, 1)),
+        Kind::Sinh => Ok(sinh(problem, cost, tolerance, cancel)),
+        Kind::Other => Err(super::unknown(problem)),
+    }
+}
+
+impl Certificate {
+    fn new(cost: f64, lower: f64, tolerance: f64, evaluations: u64) -> Self {
+        let gap = if cost > lower { 1.0 - lower / cost } else { 0.0 };
+        Self { lower, gap, certified: gap <= tolerance, evaluations }
+    }
+}
+
+fn sinh(problem: &Problem, cost: f64, tolerance: f64, cancel: &AtomicBool) -> Certificate {
     let curve = Curve::new(problem);
     let square = curve.columns(0.0, 1).target.iter().map(|f| f * f).sum::<f64>();
-    if exact.cost <= NOTHING * square {
-        return Ok(Certificate { lower: 0.0, gap: 0.0, certified: true, evaluations: 1 });
+    if cost <= NOTHING * square {
+        return Certificate { lower: 0.0, gap: 0.0, certified: true, evaluations: 1 };
     }
-    let mut cells: Vec<Cell> = sinh_exact::grid(problem, &curve)?
+    let mut cells: Vec<Cell> = sinh_exact::grid(problem, &curve)
         .windows(2)
         .map(|ends| Cell { low: ends[0], high: ends[1], bound: 0.0 })
         .collect();
-    // Half of the tolerance, so that roundings do not keep an interval open.
-    let enough = exact.cost * (1.0 - 0.5 * tolerance);
+    // A bound that no interval can meet would take all the effort: nothing above the optimum is asked for.
+    let best = super::sinh(problem).cost.min(cost);
+    let wanted = cost * (1.0 - tolerance);
+    // Half way, so that roundings do not keep an interval open.
+    let enough = if wanted < best { 0.5 * (wanted + best) } else { best * (1.0 - 0.5 * tolerance) };
     let most = if curve.is_compressed() { MOST } else { MOST_PASSES };
-    let (mut lower, mut evaluations) = (exact.cost, 0);
+    let (mut lower, mut evaluations) = (best, 0);
     while let Some(cell) = cells.pop() {
-        if evaluations >= most {
+        if evaluations >= most || cancel.load(Ordering::Relaxed) {
             lower = lower.min(cell.bound);
             continue;
         }
         evaluations += 1;
         let middle = 0.5 * (cell.low + cell.high);
-        let bound = bound(&curve, &cell, exact.cost).max(cell.bound);
+        let bound = bound(&curve, &cell, best).max(cell.bound);
         if bound >= enough || middle <= cell.low || middle >= cell.high {
             lower = lower.min(bound);
         } else {
@@ -80,8 +103,7 @@ pub fn certificate(problem: &Problem, exact: &Exact, tolerance: f64) -> Result<C
             cells.push(Cell { low: middle, high: cell.high, bound });
         }
     }
-    let gap = if exact.cost > 0.0 { (1.0 - lower / exact.cost).max(0.0) } else { 0.0 };
-    Ok(Certificate { lower, gap, certified: gap <= tolerance, evaluations })
+    Certificate::new(cost, lower, tolerance, evaluations)
 }
 
 /// An interval of b.

@@ -2,18 +2,19 @@
 //! covers their whole box.
 
 mod certificate;
-mod projection;
 mod sinh_curve;
 mod sinh_exact;
 
 use std::sync::atomic::AtomicBool;
 
+use super::bounded::factor;
 use crate::error::{Error, Result};
 use crate::fitness::Problem;
 use crate::kernel::sinh_compressed;
 use crate::law::Law;
 
 pub use certificate::{Certificate, certificate};
+pub(super) use sinh_curve::Curve;
 
 /// The best parameters in the box.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,41 +30,74 @@ pub struct Exact {
 /// The global optimum of the Kelvin-Voigt or sinh model within the box of the problem.
 ///
 /// # Errors
-/// Another model, a current that changes within a recording, or a box in which sinh overflows.
+/// Another model, or a current that changes within a recording.
 pub fn exact(problem: &Problem) -> Result<Exact> {
-    let (mut values, evaluations) = match Kind::of(problem)? {
-        Kind::Linear => (kelvin_voigt(problem), 1),
-        Kind::Sinh => sinh_exact::optimum(problem)?,
-    };
+    Ok(match Kind::of(problem) {
+        Kind::Linear => linear(problem),
+        Kind::Sinh => sinh(problem),
+        Kind::Other => return Err(unknown(problem)),
+    })
+}
+
+/// How a problem is solved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// No parameter but coefficients.
+    Linear,
+    /// Coefficients and beta.
+    Sinh,
+    /// Shapes that no search covers.
+    Other,
+}
+
+impl Kind {
+    pub(super) fn of(problem: &Problem) -> Self {
+        match (problem.model().name(), problem.law()) {
+            ("kelvin_voigt", Law::Shared) => Self::Linear,
+            ("sinh", Law::Shared) => Self::Sinh,
+            _ => Self::Other,
+        }
+    }
+}
+
+/// Refuse a problem for which no certificate exists.
+///
+/// # Errors
+/// As [`exact`].
+pub fn check(problem: &Problem) -> Result<()> {
+    if Kind::of(problem) == Kind::Other { Err(unknown(problem)) } else { Ok(()) }
+}
+
+/// Why a problem has no proven optimum.
+fn unknown(problem: &Problem) -> Error {
+    let wanted = "a proven optimum exists for kelvin_voigt and sinh only";
+    match problem.law() {
+        Law::Affine { .. } => {
+            Error::setting("current", "changing within a recording", format!("constant: {wanted}"))
+        }
+        Law::Shared => Error::setting("model", format!("'{}'", problem.model().name()), wanted),
+    }
+}
+
+/// The optimum of a model without shapes.
+pub(super) fn linear(problem: &Problem) -> Exact {
+    in_box(problem, kelvin_voigt(problem), 1)
+}
+
+/// The optimum over the whole interval of beta.
+pub(super) fn sinh(problem: &Problem) -> Exact {
+    let (values, evaluations) = sinh_exact::optimum(problem);
+    in_box(problem, values, evaluations)
+}
+
+fn in_box(problem: &Problem, mut values: Vec<f64>, evaluations: u64) -> Exact {
     let (lower, upper) = (problem.bounds().lower(), problem.bounds().upper());
     for (i, value) in values.iter_mut().enumerate() {
         *value = value.clamp(lower[i], upper[i]);
     }
     let mut cost = [0.0];
     problem.fitness(&values, &mut cost, &AtomicBool::new(false));
-    Ok(Exact { values, cost: cost[0], evaluations })
-}
-
-/// How a problem is solved.
-enum Kind {
-    /// No parameter but coefficients.
-    Linear,
-    /// Coefficients and beta.
-    Sinh,
-}
-
-impl Kind {
-    fn of(problem: &Problem) -> Result<Self> {
-        let wanted = "the exact optimum is known for kelvin_voigt and sinh";
-        match (problem.model().name(), problem.law()) {
-            (_, Law::Affine { .. }) => {
-                Err(Error::setting("current", "changing within a recording", format!("constant: {wanted}")))
-            }
-            ("kelvin_voigt", _) => Ok(Self::Linear),
-            ("sinh", _) => Ok(Self::Sinh),
-            (other, _) => Err(Error::setting("model", format!("'{other}'"), wanted)),
-        }
-    }
+    Exact { values, cost: cost[0], evaluations }
 }
 
 /// `[c0, k0, F0]`: one least-squares problem.
@@ -78,6 +112,6 @@ fn kelvin_voigt(problem: &Problem) -> Vec<f64> {
     let g = std::array::from_fn(|i| triangle.at(i, 3));
     let pick = |from: &[f64]| [from[0], from[2], from[1]];
     let bounds = problem.bounds();
-    let [c0, f0, k0] = projection::bounded(&r, &g, &pick(bounds.lower()), &pick(bounds.upper()));
+    let [c0, f0, k0] = factor::minimise(&r, &g, &pick(bounds.lower()), &pick(bounds.upper()));
     vec![c0, k0, f0]
 }

@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use super::projection::bounded;
+use crate::fit::bounded::factor;
 use crate::fitness::Problem;
 use crate::kernel::SinhCompressed;
 use crate::kernel::bessel::MOST_NODES;
@@ -15,23 +15,23 @@ use crate::kernel::triangle::{ROWS, Triangle};
 use crate::recording::Recording;
 
 /// Most coordinates: those of the largest factor.
-pub(super) const MOST: usize = MOST_NODES + 3;
+pub(crate) const MOST: usize = MOST_NODES + 3;
 /// A vector in the coordinates of the factor.
-pub(super) type Vector = [f64; MOST];
+pub(crate) type Vector = [f64; MOST];
 /// Derivatives of w that can be asked for, itself included.
-pub(super) const DERIVATIVES: usize = 4;
+pub(crate) const DERIVATIVES: usize = 4;
 
 /// The curve of a problem.
 #[derive(Debug)]
-pub(super) struct Curve<'a> {
+pub(crate) struct Curve<'a> {
     problem: &'a Problem,
     source: Source<'a>,
     /// Largest displacement, mm.
-    pub(super) farthest: f64,
+    pub(crate) farthest: f64,
     /// Lower bounds of c0, F0, k0, alpha.
-    pub(super) lower: [f64; 4],
+    pub(crate) lower: [f64; 4],
     /// Upper bounds of c0, F0, k0, alpha.
-    pub(super) upper: [f64; 4],
+    pub(crate) upper: [f64; 4],
 }
 
 #[derive(Debug)]
@@ -44,31 +44,31 @@ enum Source<'a> {
 
 /// The coordinates at one b.
 #[derive(Debug, Clone)]
-pub(super) struct Columns {
+pub(crate) struct Columns {
     /// Coordinates in use.
-    pub(super) used: usize,
+    pub(crate) used: usize,
     /// v, 1, x: zero after the first three.
-    pub(super) base: [[f64; 3]; 3],
-    pub(super) target: Vector,
+    pub(crate) base: [[f64; 3]; 3],
+    pub(crate) target: Vector,
     /// w and its derivatives in b, divided by `scale`.
-    pub(super) w: [Vector; DERIVATIVES],
-    pub(super) scale: f64,
+    pub(crate) w: [Vector; DERIVATIVES],
+    pub(crate) scale: f64,
 }
 
 /// The best linear coefficients at one b.
 #[derive(Debug, Clone)]
-pub(super) struct Point {
-    pub(super) b: f64,
+pub(crate) struct Point {
+    pub(crate) b: f64,
     /// c0, F0, k0, alpha.
-    pub(super) u: [f64; 4],
-    pub(super) cost: f64,
+    pub(crate) u: [f64; 4],
+    pub(crate) cost: f64,
     /// Derivative of the least cost in b. Bounds in force do not change its form.
-    pub(super) slope: f64,
-    pub(super) residual: Vector,
+    pub(crate) slope: f64,
+    pub(crate) residual: Vector,
 }
 
 impl<'a> Curve<'a> {
-    pub(super) fn new(problem: &'a Problem) -> Self {
+    pub(crate) fn new(problem: &'a Problem) -> Self {
         let (low, high) = (problem.bounds().lower(), problem.bounds().upper());
         let largest = low[3].abs().max(high[3].abs());
         let own = || SinhCompressed::new(problem.recordings(), problem.weights(), largest);
@@ -77,26 +77,31 @@ impl<'a> Curve<'a> {
             None => own().map_or(Source::Samples, |c| Source::Own(Box::new(c))),
         };
         let pick = |from: &[f64]| [from[0], from[4], from[1], from[2]];
-        let farthest = match farthest(problem.recordings()) {
-            0.0 => 1.0,
-            far => far,
+        let farthest = match &source {
+            Source::Shared(compressed) => compressed.farthest(),
+            Source::Own(compressed) => compressed.farthest(),
+            // Scored samples that do not move: any length does.
+            Source::Samples => match farthest(problem.recordings()) {
+                0.0 => 1.0 / high[3],
+                far => far,
+            },
         };
         Self { problem, source, farthest, lower: pick(low), upper: pick(high) }
     }
 
     /// True where a point costs the same for any number of samples.
-    pub(super) fn is_compressed(&self) -> bool {
+    pub(crate) fn is_compressed(&self) -> bool {
         !matches!(self.source, Source::Samples)
     }
 
     /// Values in the order of the problem.
-    pub(super) fn values(&self, point: &Point) -> Vec<f64> {
+    pub(crate) fn values(&self, point: &Point) -> Vec<f64> {
         let [c0, f0, k0, alpha] = point.u;
         vec![c0, k0, alpha, point.b / self.farthest, f0]
     }
 
     /// w and its derivatives up to the one before `count`.
-    pub(super) fn columns(&self, b: f64, count: usize) -> Columns {
+    pub(crate) fn columns(&self, b: f64, count: usize) -> Columns {
         match &self.source {
             Source::Shared(compressed) => self.compressed(compressed, b, count),
             Source::Own(compressed) => self.compressed(compressed, b, count),
@@ -106,16 +111,10 @@ impl<'a> Curve<'a> {
 
     fn compressed(&self, on: &SinhCompressed, b: f64, count: usize) -> Columns {
         let triangle = on.triangle();
-        let n = triangle.columns();
-        let mut columns = self.empty(triangle, n - 1, 1.0);
+        let mut columns = self.empty(triangle, triangle.columns() - 1, 1.0);
         let mut orders = on.bessel().all(b);
         for w in &mut columns.w[..count] {
-            for (i, w) in w[..n].iter_mut().enumerate() {
-                let first = i.max(2);
-                let row = &triangle.row(i)[first - i..n - 1 - i.min(n - 1)];
-                let odd = orders[2 * first - 3..].iter().step_by(2);
-                *w = row.iter().zip(odd).map(|(r, order)| 2.0 * r * order).sum();
-            }
+            on.series(&orders, w);
             let before = orders; // 2 I_n' = I_(n-1) + I_(n+1)
             for k in 0..orders.len() {
                 let above = before.get(k + 1).unwrap_or(&0.0);
@@ -176,12 +175,12 @@ impl<'a> Curve<'a> {
     }
 
     /// The best linear coefficients at b.
-    pub(super) fn point(&self, b: f64) -> Point {
+    pub(crate) fn point(&self, b: f64) -> Point {
         self.solve(b, &self.columns(b, 2))
     }
 
     /// The best linear coefficients in these coordinates.
-    pub(super) fn solve(&self, b: f64, on: &Columns) -> Point {
+    pub(crate) fn solve(&self, b: f64, on: &Columns) -> Point {
         let (w, target) = (&on.w[0][..on.used], &on.target[..on.used]);
         let height = dot(&w[3..], &w[3..]).sqrt();
         let beyond = if height > 0.0 { dot(&w[3..], &target[3..]) / height } else { 0.0 };
@@ -193,7 +192,7 @@ impl<'a> Curve<'a> {
         r[3][3] = height;
         let (mut lower, mut upper) = (self.lower, self.upper);
         (lower[3], upper[3]) = (lower[3] * on.scale, upper[3] * on.scale);
-        let mut u = bounded(&r, &[target[0], target[1], target[2], beyond], &lower, &upper);
+        let mut u = factor::minimise(&r, &[target[0], target[1], target[2], beyond], &lower, &upper);
         let mut residual = [0.0; MOST];
         for i in 0..on.used {
             residual[i] = target[i] - u[3] * w[i];
@@ -208,6 +207,6 @@ impl<'a> Curve<'a> {
 }
 
 /// Scalar product over the shorter length.
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

@@ -2,7 +2,6 @@
 //! coefficients projected out, then the root of the slope in every valley.
 
 use super::sinh_curve::{Curve, Point};
-use crate::error::{Error, Result};
 use crate::fitness::Problem;
 
 /// Points of the walk for every e-fold of 1 + b: the shape of sinh(b t) changes in steps of b where b
@@ -12,13 +11,11 @@ const DENSITY: f64 = 24.0;
 const DEPTH: u32 = 5;
 /// Most steps to the root of the slope.
 const STEPS: usize = 50;
-/// Above this sinh overflows.
-const LARGEST: f64 = 700.0;
 
 /// Parameters in the order of the problem, and the number of points on the way.
-pub(super) fn optimum(problem: &Problem) -> Result<(Vec<f64>, u64)> {
+pub(super) fn optimum(problem: &Problem) -> (Vec<f64>, u64) {
     let curve = Curve::new(problem);
-    let grid = grid(problem, &curve)?;
+    let grid = grid(problem, &curve);
     let mut walk = Walk { curve: &curve, best: None, evaluations: 0 };
     let mut left: Option<Point> = None;
     for b in grid {
@@ -30,21 +27,17 @@ pub(super) fn optimum(problem: &Problem) -> Result<(Vec<f64>, u64)> {
     }
     let Walk { best, evaluations, .. } = walk;
     let values = best.map_or_else(|| problem.bounds().lower().to_vec(), |best| curve.values(&best));
-    Ok((values, evaluations))
+    (values, evaluations)
 }
 
 /// Points that cover the interval of `b = beta xm`, ends included.
-pub(super) fn grid(problem: &Problem, curve: &Curve<'_>) -> Result<Vec<f64>> {
-    let (lower, upper) = (problem.bounds().lower()[3], problem.bounds().upper()[3]);
-    let (low, high) = (lower * curve.farthest, (upper * curve.farthest).min(LARGEST));
-    if low >= high {
-        let wanted = format!("below {} 1/mm: sinh overflows", LARGEST / curve.farthest);
-        return Err(Error::setting("lower bound of beta", lower, wanted));
-    }
+pub(super) fn grid(problem: &Problem, curve: &Curve<'_>) -> Vec<f64> {
+    let low = problem.bounds().lower()[3] * curve.farthest;
+    let high = problem.bounds().upper()[3] * curve.farthest;
     let (first, last) = (low.ln_1p(), high.ln_1p());
     let count = ((last - first) * DENSITY).ceil().max(8.0);
     let inner = (1..count as usize).map(|i| (first + (last - first) * i as f64 / count).exp_m1());
-    Ok(std::iter::once(low).chain(inner).chain(std::iter::once(high)).collect())
+    std::iter::once(low).chain(inner).chain(std::iter::once(high)).collect()
 }
 
 struct Walk<'a> {

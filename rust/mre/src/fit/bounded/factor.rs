@@ -1,10 +1,4 @@
-//! Linear least squares within a box, on a triangular factor: the linear coefficients of a model, given
-//! its nonlinear parameters.
-//!
-//! Active set (Stark and Parker 1995, Computational Statistics 10, 129-141): the free coefficients are
-//! solved with the others on their bounds; one that would leave its bounds is stopped there, and one
-//! that a bound holds against the slope is freed. The answer is exact to rounding.
-//! A column that depends on the others keeps its coefficient where it is.
+//! The search, on a triangular factor of the columns: no digits are lost to sums of products.
 
 /// Columns with less than this share of their length outside the span of the others depend on them.
 const DEPENDENT: f64 = 1e-14;
@@ -14,102 +8,106 @@ const FLAT: f64 = 1e-14;
 /// The coefficients u within the bounds at which `||R u - g||` is least; R is upper triangular.
 ///
 /// Where R does not decide them all, those stay as near to zero as the search left them.
-pub(crate) fn bounded<const N: usize>(
+pub(crate) fn minimise<const N: usize>(
     r: &[[f64; N]; N],
     g: &[f64; N],
     lower: &[f64; N],
     upper: &[f64; N],
 ) -> [f64; N] {
-    let mut u: [f64; N] = std::array::from_fn(|j| 0.0_f64.clamp(lower[j], upper[j]));
-    let mut free = [true; N];
-    let start = solve(r, g, &u, &free);
-    let inside = |j: usize| start[j] >= lower[j] && start[j] <= upper[j];
-    if (0..N).all(inside) {
+    let nearest = std::array::from_fn(|j| 0.0_f64.clamp(lower[j], upper[j]));
+    let start = solve(r, g, &nearest, &[true; N]);
+    let inside: [bool; N] = std::array::from_fn(|j| start[j] >= lower[j] && start[j] <= upper[j]);
+    if inside == [true; N] {
         return start;
     }
-    for j in 0..N {
-        free[j] = inside(j);
-        u[j] = start[j].clamp(lower[j], upper[j]);
-    }
-    // Every pass over the outer loop lowers the cost; the count only guards against rounding.
+    let u = std::array::from_fn(|j| start[j].clamp(lower[j], upper[j]));
+    let mut search = Search { r, g, lower, upper, u, free: inside };
+    // Every pass lowers the cost; the count only guards against rounding.
     for _ in 0..4 * 3_usize.pow(N as u32) {
-        descend(r, g, lower, upper, &mut u, &mut free);
-        if !release(r, g, lower, upper, &mut u, &mut free) {
+        search.descend();
+        if !search.release() {
             break;
         }
     }
-    u
+    search.u
 }
 
-/// Solve for the free coefficients; stop those that would leave their bounds, until none does.
-fn descend<const N: usize>(
-    r: &[[f64; N]; N],
-    g: &[f64; N],
-    lower: &[f64; N],
-    upper: &[f64; N],
-    u: &mut [f64; N],
-    free: &mut [bool; N],
-) {
-    loop {
-        let z = solve(r, g, u, free);
-        let (mut share, mut stopped) = (1.0, None);
-        for j in (0..N).filter(|j| free[*j]) {
-            let bound = z[j].clamp(lower[j], upper[j]);
-            if bound != z[j] {
-                let step = ((bound - u[j]) / (z[j] - u[j])).max(0.0);
-                if step < share || stopped.is_none() {
-                    (share, stopped) = (step, Some((j, bound)));
-                }
-            }
-        }
-        for j in (0..N).filter(|j| free[*j]) {
-            u[j] = if stopped.is_some() { u[j] + share * (z[j] - u[j]) } else { z[j] };
-            u[j] = u[j].clamp(lower[j], upper[j]);
-        }
-        let Some((j, bound)) = stopped else { return };
-        (u[j], free[j]) = (bound, false);
+struct Search<'a, const N: usize> {
+    r: &'a [[f64; N]; N],
+    g: &'a [f64; N],
+    lower: &'a [f64; N],
+    upper: &'a [f64; N],
+    u: [f64; N],
+    /// False for the coefficients that a bound holds.
+    free: [bool; N],
+}
+
+impl<const N: usize> Search<'_, N> {
+    fn solve(&self) -> [f64; N] {
+        solve(self.r, self.g, &self.u, &self.free)
     }
-}
 
-/// Free the coefficient whose bound costs most, if that lowers the cost.
-fn release<const N: usize>(
-    r: &[[f64; N]; N],
-    g: &[f64; N],
-    lower: &[f64; N],
-    upper: &[f64; N],
-    u: &mut [f64; N],
-    free: &mut [bool; N],
-) -> bool {
-    let mut tried = *free;
-    loop {
-        let (mut steepest, mut which) = (0.0, None);
-        for j in (0..N).filter(|j| !tried[*j]) {
-            let (mut slope, mut size, mut length) = (0.0, 0.0, 0.0_f64);
-            for i in 0..=j {
-                let (mut rest, mut terms) = (g[i], g[i].abs());
-                for k in i..N {
-                    rest -= r[i][k] * u[k];
-                    terms += (r[i][k] * u[k]).abs();
+    /// Solve for the free coefficients; stop those that would leave their bounds, until none does.
+    fn descend(&mut self) {
+        loop {
+            let z = self.solve();
+            let (mut share, mut stopped) = (1.0, None);
+            for j in (0..N).filter(|j| self.free[*j]) {
+                let bound = z[j].clamp(self.lower[j], self.upper[j]);
+                if bound != z[j] {
+                    let step = ((bound - self.u[j]) / (z[j] - self.u[j])).max(0.0);
+                    if step < share || stopped.is_none() {
+                        (share, stopped) = (step, Some((j, bound)));
+                    }
                 }
-                slope += r[i][j] * rest;
-                size += (r[i][j] * terms).abs();
-                length += r[i][j] * r[i][j];
             }
-            let inward = if u[j] <= lower[j] { slope } else { -slope };
-            let steepness = inward / length.sqrt();
-            if inward > FLAT * size && steepness > steepest && lower[j] < upper[j] {
-                (steepest, which) = (steepness, Some(j));
+            for j in (0..N).filter(|j| self.free[*j]) {
+                let u = if stopped.is_some() { self.u[j] + share * (z[j] - self.u[j]) } else { z[j] };
+                self.u[j] = u.clamp(self.lower[j], self.upper[j]);
             }
+            let Some((j, bound)) = stopped else { return };
+            (self.u[j], self.free[j]) = (bound, false);
         }
-        let Some(j) = which else { return false };
-        tried[j] = true;
-        free[j] = true;
-        // Only where it moves inward: by rounding it may not.
-        let z = solve(r, g, u, free)[j];
-        if (u[j] <= lower[j] && z > u[j]) || (u[j] >= upper[j] && z < u[j]) {
-            return true;
+    }
+
+    /// Free the coefficient whose bound costs most, if that lowers the cost.
+    fn release(&mut self) -> bool {
+        let mut tried = self.free;
+        loop {
+            let (mut steepest, mut which) = (0.0, None);
+            for j in (0..N).filter(|j| !tried[*j] && self.lower[*j] < self.upper[*j]) {
+                let (slope, size, length) = self.slope(j);
+                let inward = if self.u[j] <= self.lower[j] { slope } else { -slope };
+                if inward > FLAT * size && inward / length > steepest {
+                    (steepest, which) = (inward / length, Some(j));
+                }
+            }
+            let Some(j) = which else { return false };
+            (tried[j], self.free[j]) = (true, true);
+            // Only where it moves inward: by rounding it may not.
+            let (u, z) = (self.u[j], self.solve()[j]);
+            if (u <= self.lower[j] && z > u) || (u >= self.upper[j] && z < u) {
+                return true;
+            }
+            self.free[j] = false;
         }
-        free[j] = false;
+    }
+
+    /// Half the slope of the cost downhill along a coefficient, the size of its terms, and the length of
+    /// the column.
+    fn slope(&self, j: usize) -> (f64, f64, f64) {
+        let (mut slope, mut size, mut square) = (0.0, 0.0, 0.0);
+        for i in 0..=j {
+            let (mut rest, mut terms) = (self.g[i], self.g[i].abs());
+            for k in i..N {
+                rest -= self.r[i][k] * self.u[k];
+                terms += (self.r[i][k] * self.u[k]).abs();
+            }
+            slope += self.r[i][j] * rest;
+            size += (self.r[i][j] * terms).abs();
+            square += self.r[i][j] * self.r[i][j];
+        }
+        (slope, size, f64::sqrt(square))
     }
 }
 
@@ -215,7 +213,7 @@ mod tests {
                 r[2] = [0.0, 0.0, 0.0, r[2][3]];
             }
             let high = std::array::from_fn(|j| low[j] + width[j]);
-            let u = bounded(&r, &g, &low, &high);
+            let u = minimise(&r, &g, &low, &high);
             prop_assert!((0..N).all(|j| u[j] >= low[j] && u[j] <= high[j]));
             let (got, wanted) = (cost(&r, &g, &u), by_faces(&r, &g, &low, &high));
             prop_assert!(got <= wanted * (1.0 + 1e-10) + 1e-20, "{got} {wanted}");
@@ -227,13 +225,13 @@ mod tests {
         let r = triangle(&[2.0, 1.0, 0.5, 0.1, 0.0, 3.0, 1.0, 0.2, 0.0, 0.0, 1.0, 0.3, 0.0, 0.0, 0.0, 0.7]);
         let truth = [0.3, -0.2, 0.9, -0.5];
         let g = std::array::from_fn(|i| (0..N).map(|k| r[i][k] * truth[k]).sum());
-        let u = bounded(&r, &g, &[-1.0; N], &[1.0; N]);
+        let u = minimise(&r, &g, &[-1.0; N], &[1.0; N]);
         assert!((0..N).all(|j| (u[j] - truth[j]).abs() < 1e-15));
     }
 
     #[test]
     fn nothing_is_decided_by_a_zero_column() {
-        let u = bounded(&[[1.0, 0.0], [0.0, 0.0]], &[0.5, 2.0], &[0.0, 3.0], &[1.0, 4.0]);
+        let u = minimise(&[[1.0, 0.0], [0.0, 0.0]], &[0.5, 2.0], &[0.0, 3.0], &[1.0, 4.0]);
         assert_eq!(u, [0.5, 3.0]);
     }
 }

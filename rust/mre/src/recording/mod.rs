@@ -2,45 +2,19 @@
 //!
 //! Units: millimetre, newton, second, ampere, degree Celsius.
 
+mod check;
+mod condition;
+mod cut;
+
 use std::ops::Range;
+
+pub use condition::Condition;
 
 use crate::error::{Error, Result};
 use crate::velocity;
 
 /// Fewest samples from which a velocity and five parameters can be told.
 pub const MIN_SAMPLES: usize = 8;
-
-/// A quantity that is not recorded, constant, or recorded sample by sample.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Condition {
-    /// Not known.
-    Missing,
-    /// One value for the whole recording.
-    Constant(f64),
-    /// One value a sample.
-    Series(Vec<f64>),
-}
-
-impl Condition {
-    /// The constant value: given as such, or a measured series that varies by noise only
-    /// (standard deviation below 0.01 plus 2 % of the mean).
-    pub fn level(&self) -> Option<f64> {
-        match self {
-            Self::Missing => None,
-            Self::Constant(value) => Some(*value),
-            Self::Series(values) => {
-                let mean = mean(values);
-                let variance = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / values.len() as f64;
-                (variance.sqrt() <= 0.01 + 0.02 * mean.abs()).then_some(mean)
-            }
-        }
-    }
-
-    /// True where the quantity changes during the recording.
-    pub fn varies(&self) -> bool {
-        matches!(self, Self::Series(_)) && self.level().is_none()
-    }
-}
 
 /// What a recording is made from.
 #[derive(Debug, Clone, PartialEq)]
@@ -80,7 +54,7 @@ impl Recording {
     /// increase, or a displacement that never changes.
     pub fn new(mut series: Series) -> Result<Self> {
         let name = series.name.clone();
-        check(&series).map_err(|error| error.in_recording(&name))?;
+        check::series(&series).map_err(|error| error.in_recording(&name))?;
         let (velocity, velocity_window) = if let Some(measured) = series.velocity.take() {
             (measured, None)
         } else {
@@ -197,93 +171,6 @@ impl Recording {
             seen.series.current = Condition::Series(current);
         }
         seen
-    }
-
-    /// The part between two times in s. What is cut off is forgotten: a simulation of the rest
-    /// starts rested.
-    ///
-    /// # Errors
-    /// Fewer than [`MIN_SAMPLES`] samples or no motion left.
-    pub fn cut(&self, start: f64, stop: f64) -> Result<Self> {
-        let time = self.time();
-        if start.is_nan() || stop.is_nan() {
-            return Err(Error::setting("cut", format!("{start} s to {stop} s"), "two numbers"));
-        }
-        let range = time.partition_point(|t| *t < start)..time.partition_point(|t| *t <= stop);
-        if range.len() < MIN_SAMPLES {
-            return Err(Error::setting(
-                "cut",
-                format!("{start} s to {stop} s"),
-                format!(
-                    "at least {MIN_SAMPLES} samples have to be left of {} s to {} s",
-                    time[0],
-                    time[time.len() - 1]
-                ),
-            )
-            .in_recording(self.name()));
-        }
-        let part = |values: &[f64]| values[range.clone()].to_vec();
-        let condition = |c: &Condition| match c {
-            Condition::Series(values) => Condition::Series(part(values)),
-            other => other.clone(),
-        };
-        let mut cut = Self::new(Series {
-            time: part(time),
-            displacement: part(self.displacement()),
-            velocity: Some(part(&self.velocity)),
-            force: self.force().map(part),
-            simulated: self.simulated().map(part),
-            current: condition(self.current()),
-            temperature: condition(self.temperature()),
-            name: self.series.name.clone(),
-        })?;
-        cut.velocity_window = self.velocity_window;
-        let scored = self.scored.start.max(range.start)..self.scored.end.min(range.end);
-        cut.with_scored(scored.start.saturating_sub(range.start)..scored.end.saturating_sub(range.start))
-    }
-}
-
-fn check(series: &Series) -> Result<()> {
-    let n = series.time.len();
-    if n < MIN_SAMPLES {
-        return Err(Error::Recording(format!("{n} samples: at least {MIN_SAMPLES} are needed")));
-    }
-    finite("time", &series.time)?;
-    for (i, pair) in series.time.windows(2).enumerate() {
-        if pair[1] <= pair[0] {
-            return Err(Error::Time { index: i + 1, before: pair[0], after: pair[1] });
-        }
-    }
-    let mut columns = vec![("displacement", Some(&series.displacement))];
-    columns.push(("velocity", series.velocity.as_ref()));
-    columns.push(("force", series.force.as_ref()));
-    columns.push(("simulated", series.simulated.as_ref()));
-    for (what, condition) in [("current", &series.current), ("temperature", &series.temperature)] {
-        match condition {
-            Condition::Missing => {}
-            Condition::Constant(value) => finite(what, std::slice::from_ref(value))?,
-            Condition::Series(values) => columns.push((what, Some(values))),
-        }
-    }
-    for (what, values) in columns.into_iter().filter_map(|(what, v)| v.map(|v| (what, v))) {
-        if values.len() != n {
-            return Err(Error::Length { what, expected: n, got: values.len() });
-        }
-        finite(what, values)?;
-    }
-    let (low, high) = extent(&series.displacement);
-    if low == high {
-        return Err(Error::Recording(format!(
-            "displacement is {low} mm throughout: a moving device is needed"
-        )));
-    }
-    Ok(())
-}
-
-fn finite(what: &'static str, values: &[f64]) -> Result<()> {
-    match values.iter().position(|v| !v.is_finite()) {
-        Some(index) => Err(Error::NotFinite { what, index, value: values[index] }),
-        None => Ok(()),
     }
 }
 

@@ -1,30 +1,24 @@
 //! Fitness of candidate parameters on recordings: eq. 5 (mean squared error, N^2), of which eq. 9 is
 //! the root; over several recordings together, each with its weight.
 
+mod bounds;
+mod stream;
+mod weights;
+
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
+pub use stream::Stream;
+pub use weights::Weights;
 
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::extent::Extent;
 use crate::kernel::{BoucWenRk4, LANES, Sinh, SinhCompressed};
 use crate::law::Law;
 use crate::model::Model;
 use crate::parameter::{Bounds, Parameter};
-use crate::recording::{Recording, mean};
-
-/// How recordings are weighted against each other.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Weights {
-    /// Every sample counts the same: eq. 5 over all samples.
-    Samples,
-    /// Every recording by the inverse of its mean squared force, so that a strong test does not drown
-    /// a weak one.
-    Force,
-    /// The user's own, one a recording.
-    Given(Vec<f64>),
-}
+use crate::recording::Recording;
 
 /// Recordings, a model, and the box of its parameters.
 #[derive(Debug)]
@@ -54,7 +48,8 @@ impl Problem {
     ///
     /// # Errors
     /// No recording, a recording without force or with less motion than the model needs, an unknown
-    /// parameter, bounds that are reversed or not admissible, or weights that are not positive.
+    /// parameter, bounds that are reversed, not admissible or so wide that sinh overflows, or weights
+    /// that are not positive.
     pub fn new(
         recordings: Vec<Arc<Recording>>,
         model: Model,
@@ -64,35 +59,11 @@ impl Problem {
         let extent = Extent::of(&recordings)?;
         let law = Law::of(&recordings, &model)?;
         let mut parameters = law.parameters(&model, &extent);
-        for (name, lower, upper) in bounds {
-            let wanted = format!(
-                "one of {}",
-                parameters.iter().map(|p| p.name.as_str()).collect::<Vec<_>>().join(", ")
-            );
-            let Some(p) = parameters.iter_mut().find(|p| p.name == *name) else {
-                return Err(Error::setting("parameter in bounds", format!("'{name}'"), wanted));
-            };
-            (p.lower, p.upper) = (*lower, *upper);
-        }
-        for p in &parameters {
-            if p.lower < p.smallest || p.upper > p.largest {
-                let wanted = format!("within {} and {}", p.smallest, p.largest);
-                return Err(Error::setting(
-                    format!("bound of {}", p.name),
-                    format!("{}:{}", p.lower, p.upper),
-                    wanted,
-                ));
-            }
-        }
-        let names: Vec<String> = parameters.iter().map(|p| p.name.clone()).collect();
-        let pick = |value: fn(&Parameter) -> f64| parameters.iter().map(value).collect();
-        let scale = parameters.iter().map(|p| p.scale).collect();
-        let bounds = Bounds::new(&names, pick(|p| p.lower), pick(|p| p.upper), scale)?;
-        let weights = scale_weights(weights, &recordings)?;
+        let bounds = bounds::choose(&mut parameters, bounds, extent.displacement)?;
+        let weights = weights.scaled(&recordings)?;
         let kernel = match (model.name(), &law) {
             ("sinh", Law::Shared) => {
-                let largest_beta = bounds.lower()[3].abs().max(bounds.upper()[3].abs());
-                Kernel::Sinh(Box::new(Sinh::new(&recordings, &weights, largest_beta)))
+                Kernel::Sinh(Box::new(Sinh::new(&recordings, &weights, bounds.upper()[3])))
             }
             ("bouc_wen", Law::Shared) => {
                 Kernel::BoucWen(recordings.iter().cloned().map(BoucWenRk4::new).collect())
@@ -102,7 +73,7 @@ impl Problem {
         Ok(Self { recordings, model, law, parameters, bounds, weights, kernel })
     }
 
-    /// The recordings.
+    /// The recordings; none where the samples were streamed.
     pub fn recordings(&self) -> &[Arc<Recording>] {
         &self.recordings
     }
@@ -132,6 +103,14 @@ impl Problem {
         &self.bounds
     }
 
+    /// Number of samples that count.
+    pub fn samples(&self) -> usize {
+        match &self.kernel {
+            Kernel::Sinh(kernel) => kernel.samples(),
+            _ => self.recordings.iter().map(|r| r.scored().len()).sum(),
+        }
+    }
+
     /// The samples as a triangular factor, where the model and the box allow one.
     pub(crate) fn compressed(&self) -> Option<&SinhCompressed> {
         if let Kernel::Sinh(kernel) = &self.kernel { kernel.compressed() } else { None }
@@ -139,8 +118,9 @@ impl Problem {
 
     /// Fitness in N^2 of many candidates, one row each, in parallel on the current thread pool.
     ///
-    /// A candidate that cannot be simulated costs infinity. After `cancel` is set, NaN
-    /// stands for those that were not evaluated. The values do not depend on the number of threads or on the other candidates.
+    /// A candidate that cannot be simulated costs infinity, as does one with a beta outside the box where
+    /// the samples were streamed. After `cancel` is set, NaN stands for those that were not evaluated. The
+    /// values do not depend on the number of threads or on the other candidates.
     pub fn fitness(&self, rows: &[f64], out: &mut [f64], cancel: &AtomicBool) {
         let d = self.parameters.len();
         match &self.kernel {
@@ -227,35 +207,4 @@ impl Scratch {
 /// A candidate that cannot be simulated costs infinity.
 pub(crate) fn finite_or_infinite(cost: f64) -> f64 {
     if cost.is_nan() { f64::INFINITY } else { cost }
-}
-
-/// Weights such that equal ones give the mean over all samples.
-fn scale_weights(weights: &Weights, recordings: &[Arc<Recording>]) -> Result<Vec<f64>> {
-    let count = |r: &Recording| r.scored().len() as f64;
-    let raw: Vec<f64> = match weights {
-        Weights::Samples => vec![1.0; recordings.len()],
-        Weights::Force => recordings
-            .iter()
-            .map(|r| {
-                let squares: Vec<f64> =
-                    r.force().unwrap_or_default()[r.scored()].iter().map(|f| f * f).collect();
-                1.0 / mean(&squares).max(f64::MIN_POSITIVE)
-            })
-            .collect(),
-        Weights::Given(given) => {
-            if given.len() != recordings.len() {
-                return Err(Error::setting(
-                    "weights",
-                    format!("{} numbers", given.len()),
-                    format!("{}, one a recording", recordings.len()),
-                ));
-            }
-            if let Some(bad) = given.iter().find(|w| !(w.is_finite() && **w > 0.0)) {
-                return Err(Error::setting("weight", bad, "a positive number"));
-            }
-            given.clone()
-        }
-    };
-    let total: f64 = raw.iter().zip(recordings).map(|(w, r)| w * count(r)).sum();
-    Ok(raw.into_iter().map(|w| w / total).collect())
 }

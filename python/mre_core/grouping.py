@@ -1,0 +1,37 @@
+"""Recordings that share their parameters."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from ._core import Recording
+from .errors import InputError
+
+
+def group_by_current(recordings: Sequence[Recording]) -> list[tuple[float | None, list[Recording]]]:
+    """Group recordings that share their parameters, by rising current.
+
+    Levels closer than 0.02 A plus 2 % are one. One recording with changing current puts all into one
+    group without a level.
+    """
+    if not recordings:
+        raise InputError("recordings are an empty list", wanted="at least one recording")
+    if any(recording.current_varies for recording in recordings):
+        return [(None, list(recordings))]
+    known = [r for r in recordings if r.current_level is not None]
+    unknown = [r for r in recordings if r.current_level is None]
+    if known and unknown:
+        raise InputError(
+            f"recording '{unknown[0].name}' has no current, others have", wanted="current=VALUE[A] for all"
+        )
+    if unknown:
+        return [(None, unknown)]
+    groups: list[list[Recording]] = []
+    for recording in sorted(known, key=lambda r: r.current_level or 0.0):
+        level = recording.current_level or 0.0
+        last = groups[-1][-1].current_level or 0.0 if groups else -np.inf
+        if level - last <= 0.02 + 0.02 * abs(level):
+            groups[-1].append(recording)
+        else:
+            groups.append([recording])
+    return [(float(np.mean([r.current_level or 0.0 for r in group])), group) for group in groups]

@@ -1,0 +1,35 @@
+//! A condition of a test: coil current, temperature.
+
+use super::mean;
+
+/// A quantity that is not recorded, constant, or recorded sample by sample.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Condition {
+    /// Not known.
+    Missing,
+    /// One value for the whole recording.
+    Constant(f64),
+    /// One value a sample.
+    Series(Vec<f64>),
+}
+
+impl Condition {
+    /// The constant value: given as such, or a measured series that varies by noise only
+    /// (standard deviation below 0.01 plus 2 % of the mean).
+    pub fn level(&self) -> Option<f64> {
+        match self {
+            Self::Missing => None,
+            Self::Constant(value) => Some(*value),
+            Self::Series(values) => {
+                let mean = mean(values);
+                let variance = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / values.len() as f64;
+                (variance.sqrt() <= 0.01 + 0.02 * mean.abs()).then_some(mean)
+            }
+        }
+    }
+
+    /// True where the quantity changes during the recording.
+    pub fn varies(&self) -> bool {
+        matches!(self, Self::Series(_)) && self.level().is_none()
+    }
+}
