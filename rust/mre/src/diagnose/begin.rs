@@ -9,7 +9,7 @@ use super::least_squares::{Data, Fitted, refine, refine_at_most};
 use super::noise::Noise;
 use super::normal::Rows;
 use crate::assembly::{Assembly, Base, Campaign};
-use crate::effect::{Effect, InitialState, starts_in_motion};
+use crate::effect::{Effect, InitialState, Quantisation, starts_in_motion};
 
 /// Steps of the first descents.
 const FEW: usize = 8;
@@ -30,13 +30,17 @@ pub struct Begun<'a> {
 
 /// Fit a base on the rows that count, with effects that belong to it.
 ///
-/// Where a recording starts in motion, the remainders of its unknown initial states are one of them.
+/// Where a recording starts in motion, the remainders of its unknown initial states are one of them; where
+/// the force is measured in steps, their saw tooth is.
 pub fn begin<'a>(campaign: &'a Campaign, base: &'a Base, given: &[Given], rows: &[Rows]) -> Begun<'a> {
     let count = campaign.recordings().len();
     let nothing = campaign.recordings().iter().map(|r| vec![0.0; r.len()]).collect();
     let mut effects: Vec<&'static dyn Effect> = given.iter().map(|(effect, _)| *effect).collect();
     if campaign.recordings().iter().any(|r| starts_in_motion(r)) {
         effects.push(&InitialState);
+    }
+    if campaign.sizes().quantum.is_some() {
+        effects.push(&Quantisation);
     }
     let shapes: Vec<f64> = given.iter().flat_map(|(_, shape)| shape.clone()).collect();
     let assembly = Assembly::new(campaign, base, effects, Arc::new(nothing));
@@ -55,8 +59,10 @@ pub fn begin<'a>(campaign: &'a Campaign, base: &'a Base, given: &[Given], rows: 
     let data = Data { noise: &noise, rows };
     let fitted = refine(&assembly, data, &coarse.unit);
     let force = assembly.base_force(&fitted.unit, &fitted.coefficients);
+    let assembly = assembly.referring_to(force);
+    let fitted = refine(&assembly, data, &fitted.unit);
     let noise = noise_left(&assembly, data, &fitted);
-    Begun { assembly: assembly.referring_to(force), fitted, noise }
+    Begun { assembly, fitted, noise }
 }
 
 /// Points of the unit box for the shapes of every group, the same place in each group, and the shapes of the

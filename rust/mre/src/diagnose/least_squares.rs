@@ -4,10 +4,10 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
+use super::bounded;
 use super::noise::Noise;
 use super::normal::{Normal, Rows, whitened};
 use crate::assembly::{Assembly, Columns};
-use crate::fit::bounded;
 use crate::kernel::filter::dot;
 
 /// Step of the difference quotients, in the unit box.

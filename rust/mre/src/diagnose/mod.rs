@@ -7,6 +7,7 @@
 mod absorbed;
 mod alternatives;
 mod begin;
+mod bounded;
 mod candidates;
 mod distribution;
 mod features;

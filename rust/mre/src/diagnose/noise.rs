@@ -1,7 +1,9 @@
-//! Noise of each recording as a long autoregression, fitted by least squares.
+//! Noise of each recording as an autoregression, fitted by least squares.
 //!
-//! Its length is 0.3 s, which keeps tests on white, strongly correlated, 1/f and narrow-band noise
-//! near their level; short or Yule-Walker ones do not.
+//! Up to 0.3 s long, which keeps tests on white, strongly correlated, 1/f and narrow-band noise near their
+//! level where short or Yule-Walker ones do not; shorter where Akaike's criterion finds no use for the length.
+//! Recordings of one sampling rate share it, each with its own size, unless they plainly differ: what is
+//! estimated from more samples is estimated better, and tests far out in the tail need that.
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -14,6 +16,10 @@ const LENGTH: f64 = 0.3;
 const LONGEST: usize = 100;
 /// Samples for each of its coefficients, at least.
 const SAMPLES_EACH: usize = 25;
+/// Orders that are compared, as shares of the longest.
+const ORDERS: [f64; 6] = [0.0, 0.05, 0.12, 0.25, 0.5, 1.0];
+/// Rates that differ by less than this share are one.
+const SAME_RATE: f64 = 0.01;
 
 /// An autoregression for each recording.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,16 +38,30 @@ impl Noise {
     /// Noise of residuals in N; `steps` are the time steps in s, `freedom` the parameters that were fitted
     /// to all residuals together.
     pub fn of(residuals: &[Vec<f64>], steps: &[f64], freedom: usize) -> Self {
+        let products: Vec<Products> =
+            residuals.par_iter().zip(steps).map(|(e, step)| Products::of(e, *step)).collect();
         let total: usize = residuals.iter().map(Vec::len).sum();
-        let filters = residuals
-            .par_iter()
-            .zip(steps)
-            .map(|(residual, step)| {
-                let share = freedom as f64 * residual.len() as f64 / total as f64;
-                Filter::of(residual, *step, share)
-            })
-            .collect();
-        Self { filters }
+        let mut filters: Vec<Option<Filter>> = vec![None; residuals.len()];
+        for r in 0..residuals.len() {
+            if filters[r].is_some() {
+                continue;
+            }
+            let alike: Vec<usize> = (r..residuals.len())
+                .filter(|s| (steps[*s] / steps[r] - 1.0).abs() < SAME_RATE)
+                .filter(|s| products[*s].order() == products[r].order())
+                .collect();
+            let own: Vec<Choice> = alike.iter().map(|s| Choice::best(&[&products[*s]])).collect();
+            let together = Choice::best(&alike.iter().map(|s| &products[*s]).collect::<Vec<_>>());
+            let shared = together.criterion <= own.iter().map(|c| c.criterion).sum();
+            for (k, s) in alike.iter().enumerate() {
+                let choice = if shared { &together } else { &own[k] };
+                let share = freedom as f64 * residuals[*s].len() as f64 / total as f64;
+                let members = if shared { alike.len() } else { 1 };
+                let used = share + choice.coefficients.len() as f64 / members as f64;
+                filters[*s] = Some(Filter::of(&residuals[*s], choice.coefficients.clone(), used));
+            }
+        }
+        Self { filters: filters.into_iter().flatten().collect() }
     }
 
     /// White noise of one size in all recordings.
@@ -69,41 +89,97 @@ impl Noise {
 }
 
 impl Filter {
-    fn of(residual: &[f64], step: f64, freedom: f64) -> Self {
-        let n = residual.len();
-        let order = ((LENGTH / step).round() as usize).min(LONGEST).min(n / SAMPLES_EACH).max(1);
-        let floor = residual.iter().map(|e| e * e).sum::<f64>() / n as f64;
-        let coefficients = autoregression(residual, order);
+    fn of(residual: &[f64], coefficients: Vec<f64>, used: f64) -> Self {
+        let floor = dot(residual, residual) / residual.len() as f64;
         let errors = prediction_error(residual, &coefficients, 1.0);
-        let left = (errors.len() as f64 - order as f64 - freedom).max(0.5 * errors.len() as f64);
-        let variance = errors.iter().map(|e| e * e).sum::<f64>() / left;
+        let left = (errors.len() as f64 - used).max(0.5 * errors.len() as f64);
+        let variance = dot(&errors, &errors) / left;
         // A residual of zeros is no noise: keep the numbers finite.
         let variance = variance.max(1e-24 * floor).max(f64::MIN_POSITIVE);
         Self { coefficients, scale: 1.0 / variance.sqrt() }
     }
 }
 
-/// Coefficients by the covariance method: least squares over all complete windows.
-fn autoregression(y: &[f64], order: usize) -> Vec<f64> {
-    let (n, p) = (y.len(), order);
-    // products[i][j] = sum over t from p to n of y[t - i] y[t - j], each diagonal from its predecessor.
-    let mut products = DMatrix::zeros(p + 1, p + 1);
-    for j in 0..=p {
-        products[(0, j)] = dot(&y[p..], &y[p - j..n - j]);
-    }
-    for i in 1..=p {
-        for j in i..=p {
-            let (first, last) = (y[p - i] * y[p - j], y[n - i] * y[n - j]);
-            products[(i, j)] = products[(i - 1, j - 1)] + first - last;
+/// Products of a residual with itself at all lags (covariance method).
+struct Products {
+    /// Entry (i, j): sum over t of `y[t - i] y[t - j]`, over all complete windows.
+    lags: DMatrix<f64>,
+    rows: f64,
+}
+
+impl Products {
+    fn of(y: &[f64], step: f64) -> Self {
+        let n = y.len();
+        let p = ((LENGTH / step).round() as usize).min(LONGEST).min(n / SAMPLES_EACH).max(1);
+        let mut lags = DMatrix::zeros(p + 1, p + 1);
+        for j in 0..=p {
+            lags[(0, j)] = dot(&y[p..], &y[p - j..n - j]);
         }
+        // Each diagonal from its predecessor.
+        for i in 1..=p {
+            for j in i..=p {
+                lags[(i, j)] = lags[(i - 1, j - 1)] + y[p - i] * y[p - j] - y[n - i] * y[n - j];
+            }
+        }
+        for i in 0..=p {
+            for j in 0..i {
+                lags[(i, j)] = lags[(j, i)];
+            }
+        }
+        Self { lags, rows: (n - p) as f64 }
     }
-    let ridge = 1e-10 * products[(0, 0)].max(f64::MIN_POSITIVE);
-    let matrix = DMatrix::from_fn(p, p, |i, j| {
-        let (a, b) = (i.min(j) + 1, i.max(j) + 1);
-        products[(a, b)] + if i == j { ridge } else { 0.0 }
-    });
-    let right = DVector::from_fn(p, |i, _| products[(0, i + 1)]);
-    matrix.cholesky().map_or_else(|| vec![0.0; p], |factor| factor.solve(&right).as_slice().to_vec())
+
+    fn order(&self) -> usize {
+        self.lags.nrows() - 1
+    }
+
+    /// Variance that coefficients leave.
+    fn variance(&self, a: &[f64]) -> f64 {
+        let full = DVector::from_iterator(a.len() + 1, [1.0].into_iter().chain(a.iter().map(|a| -a)));
+        let part = self.lags.view((0, 0), (full.len(), full.len()));
+        (full.dot(&(part * &full)) / self.rows).max(f64::MIN_POSITIVE)
+    }
+}
+
+/// An autoregression of some recordings, and Akaike's criterion of it.
+struct Choice {
+    coefficients: Vec<f64>,
+    criterion: f64,
+}
+
+impl Choice {
+    /// The order with the lowest criterion.
+    fn best(recordings: &[&Products]) -> Self {
+        let longest = recordings[0].order();
+        // Weighted so that every recording counts by its samples, not by its size.
+        let weights: Vec<f64> = recordings.iter().map(|p| 1.0 / p.variance(&[])).collect();
+        let mut sum = DMatrix::zeros(longest + 1, longest + 1);
+        for (p, w) in recordings.iter().zip(&weights) {
+            sum += &p.lags * *w;
+        }
+        let tried = ORDERS.iter().map(|share| {
+            let order = ((share * longest as f64).round() as usize).max(usize::from(*share > 0.0));
+            let coefficients = solve(&sum, order);
+            let likelihood: f64 = recordings.iter().map(|p| p.rows * p.variance(&coefficients).ln()).sum();
+            let criterion = likelihood + 2.0 * (order + recordings.len()) as f64;
+            Self { coefficients, criterion }
+        });
+        tried
+            .min_by(|a, b| a.criterion.total_cmp(&b.criterion))
+            .unwrap_or(Self { coefficients: Vec::new(), criterion: 0.0 })
+    }
+}
+
+/// Coefficients of an order by least squares.
+fn solve(lags: &DMatrix<f64>, order: usize) -> Vec<f64> {
+    if order == 0 {
+        return Vec::new();
+    }
+    let ridge = 1e-10 * lags[(0, 0)].max(f64::MIN_POSITIVE);
+    let matrix =
+        DMatrix::from_fn(order, order, |i, j| lags[(i + 1, j + 1)] + if i == j { ridge } else { 0.0 });
+    let right = DVector::from_fn(order, |i, _| lags[(0, i + 1)]);
+    matrix.cholesky().map_or_else(|| vec![0.0; order], |factor| factor.solve(&right).as_slice().to_vec())
 }
 
 #[cfg(test)]
@@ -135,9 +211,8 @@ mod tests {
         }
         let noise = Noise::of(&[y.clone()], &[0.1], 0);
         let (a, sigma) = noise.autoregression(0);
-        assert_eq!(a.len(), 3);
-        assert!((a[0] - 0.9).abs() < 0.02, "{a:?}");
-        assert!(a[1].abs() < 0.03 && a[2].abs() < 0.03, "{a:?}");
+        assert!(!a.is_empty() && (a[0] - 0.9).abs() < 0.02, "{a:?}");
+        assert!(a[1..].iter().all(|a| a.abs() < 0.03), "{a:?}");
         assert!((sigma - 0.5).abs() < 0.01, "{sigma}");
         let whitened = noise.whiten(0, &y);
         let variance = whitened.iter().map(|e| e * e).sum::<f64>() / whitened.len() as f64;

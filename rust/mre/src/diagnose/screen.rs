@@ -10,12 +10,12 @@ use rand_chacha::ChaCha8Rng;
 use rand_core::SeedableRng;
 use rayon::prelude::*;
 
+use super::bounded;
 use super::distribution::{chi_square_tail, normal};
 use super::least_squares::{Data, Point};
 use super::normal::whitened;
 use crate::assembly::Assembly;
 use crate::effect::{Effect, Scene};
-use crate::fit::bounded;
 use crate::kernel::filter::dot;
 
 /// Share of a column's square that has to survive the projection: below it the column is absorbed.

@@ -11,10 +11,12 @@ mod delay;
 mod initial_state;
 mod maxwell;
 mod payne;
+mod quantisation;
 mod scene;
 
 pub use catalogue::{CATALOGUE, named};
 pub use initial_state::{InitialState, starts_in_motion};
+pub use quantisation::Quantisation;
 pub use scene::{Scene, Sizes};
 
 use crate::parameter::{Parameter, Scale};

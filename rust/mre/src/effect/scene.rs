@@ -82,11 +82,14 @@ pub struct Sizes {
     pub current: Option<(f64, f64)>,
     /// True where the current changes inside a recording.
     pub current_varies: bool,
+    /// Step of the lattice on which all forces lie, N, if they do.
+    pub quantum: Option<f64>,
 }
 
 impl Sizes {
     /// Sizes of recordings with force.
-    pub fn of<'a>(recordings: impl Iterator<Item = &'a Recording>) -> Self {
+    pub fn of<'a>(recordings: impl Iterator<Item = &'a Recording> + Clone) -> Self {
+        let forces: Vec<&[f64]> = recordings.clone().filter_map(Recording::force).collect();
         let mut sizes = Self {
             displacement: 0.0,
             velocity: 0.0,
@@ -98,6 +101,7 @@ impl Sizes {
             energy: 0.0,
             current: None,
             current_varies: false,
+            quantum: super::quantisation::quantum(&forces),
         };
         let farthest = |values: &[f64]| values.iter().fold(0.0_f64, |far, v| far.max(v.abs()));
         for r in recordings {

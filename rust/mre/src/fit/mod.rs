@@ -1,6 +1,6 @@
 //! Exact fits: linear coefficients by projection, shapes by search and polish.
 
-pub(crate) mod bounded;
+mod bounded;
 pub mod certified;
 mod descent;
 mod projection;

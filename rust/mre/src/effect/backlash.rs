@@ -1,0 +1,78 @@
+//! Backlash: free play between the actuator and the device.
+//!
+//! | symbol | meaning | unit | range |
+//! |---|---|---|---|
+//! | g | half the free play | mm | 0 to half the largest stroke |
+//!
+//! Reference: Nordin and Gutman, Automatica 38 (2002) 1633.
+//! Known limit: where g is small against all strokes only the jumps at reversals show it.
+
+use super::operators::{each, play};
+use super::{About, Effect, Motion, Scene, Sizes, within};
+use crate::parameter::Parameter;
+
+/// Form of the free play.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Backlash {
+    /// No elastic force within the gap.
+    DeadZone,
+    /// No force at all within the gap.
+    FreeDeadZone,
+    /// The device stays where it was left until the gap is crossed.
+    Play,
+}
+
+/// Displacement beyond a gap of half width `g`.
+fn beyond(x: f64, g: f64) -> f64 {
+    x - x.clamp(-g, g)
+}
+
+impl Effect for Backlash {
+    fn about(&self) -> About {
+        let dead_zone = About {
+            effect: "backlash",
+            law: "dead zone",
+            plain: "there is free play: near the middle the device is not loaded",
+            equation: "the device sees x - min(max(x, -g), g)",
+            reference: "Nordin and Gutman 2002",
+            limit: "where the play is small against all strokes it is hardly visible",
+        };
+        match self {
+            Self::DeadZone => dead_zone,
+            Self::FreeDeadZone => About {
+                law: "dead zone without damping",
+                equation: "the device sees x - min(max(x, -g), g) and its velocity",
+                ..dead_zone
+            },
+            Self::Play => About {
+                law: "play",
+                plain: "there is free play: after each reversal the device is not moved at first",
+                equation: "the device sees p = max(x - g, min(x + g, p before)) and its velocity",
+                ..dead_zone
+            },
+        }
+    }
+
+    fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
+        vec![within("g", "mm", 0.0, 0.5 * sizes.displacement)]
+    }
+
+    fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
+        [0.01, 0.03, 0.08, 0.16, 0.3].iter().map(|share| vec![share * sizes.displacement]).collect()
+    }
+
+    fn motion(&self, scene: &Scene, shape: &[f64]) -> Option<Motion> {
+        let (x, v, g) = (scene.displacement, scene.velocity, shape[0]);
+        let displacement = match self {
+            Self::DeadZone | Self::FreeDeadZone => each(x, |x| beyond(x, g)),
+            Self::Play => play(x, g),
+        };
+        let moving = |i: usize| match self {
+            Self::DeadZone => true,
+            Self::FreeDeadZone => displacement[i] != 0.0,
+            Self::Play => g == 0.0 || (i > 0 && displacement[i] != displacement[i - 1]),
+        };
+        let velocity = v.iter().enumerate().map(|(i, v)| if moving(i) { *v } else { 0.0 }).collect();
+        Some(Motion { displacement, velocity })
+    }
+}

@@ -1,0 +1,97 @@
+//! Thermal softening: the device is softer the warmer its own dissipation makes it, and recovers as it cools.
+//!
+//! | symbol | meaning | unit | range |
+//! |---|---|---|---|
+//! | s | share that is lost at the reference temperature | - | 0 to 3 |
+//! | tau | time over which the device cools | s | 1 to 3000 |
+//!
+//! The reference is the temperature at the end of the longest recording under a constant power with the most
+//! energy of a recording. The heat is `|F v|` of the base model alone, or proportional to `v^2`.
+//! A factor never falls below 0.05.
+//! Reference: Kalpakidis and Constantinou, J. Struct. Eng. 135 (2009) 1394.
+//! Known limit: where the recordings are short against tau it is cyclic degradation by energy.
+
+use super::operators::{lag, orders_within};
+use super::{About, Effect, Factors, Scene, Sizes, order_within, within};
+use crate::parameter::Parameter;
+
+/// Range of the time over which a device cools, s.
+const COOLING: (f64, f64) = (1.0, 3000.0);
+
+/// A law of thermal softening.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Thermal {
+    /// True where the heat is that of a dashpot, not of the whole force.
+    pub(super) viscous: bool,
+    /// True for an exponential law, false for a linear one.
+    pub(super) exponential: bool,
+    /// True where damping softens like stiffness.
+    pub(super) whole: bool,
+}
+
+impl Thermal {
+    /// Excess temperature over its reference.
+    fn temperature(self, scene: &Scene, tau: f64) -> Vec<f64> {
+        let sizes = scene.sizes;
+        let (power, most): (Vec<f64>, f64) = if self.viscous {
+            (scene.velocity.iter().map(|v| v * v).collect(), 0.5 * sizes.velocity * sizes.path)
+        } else {
+            (scene.force.iter().zip(scene.velocity).map(|(f, v)| (f * v).abs()).collect(), sizes.energy)
+        };
+        // The lag is T / tau; a constant power makes it grow to the share below.
+        let share = -(-sizes.duration / tau).exp_m1();
+        let reference = most / sizes.duration * share;
+        let mut state = lag(scene.time, &power, tau, 0.0);
+        state.iter_mut().for_each(|t| *t = (*t / reference).max(0.0));
+        state
+    }
+}
+
+impl Effect for Thermal {
+    fn about(&self) -> About {
+        let law = match (self.viscous, self.exponential, self.whole) {
+            (false, false, false) => "linear, stiffness",
+            (false, false, true) => "linear, whole force",
+            (false, true, false) => "exponential, stiffness",
+            (false, true, true) => "exponential, whole force",
+            (true, false, false) => "viscous heat, stiffness",
+            (true, false, true) => "viscous heat, whole force",
+            (true, true, false) => "viscous heat, exponential, stiffness",
+            (true, true, true) => "viscous heat, exponential, whole force",
+        };
+        About {
+            effect: "thermal_softening",
+            law,
+            plain: "the device warms up as it dissipates, softens, and recovers as it cools",
+            equation: match (self.viscous, self.exponential) {
+                (false, false) => "k -> k (1 - s T/T_r), dT/dt = |F v| - T/tau",
+                (false, true) => "k -> k exp(-s T/T_r), dT/dt = |F v| - T/tau",
+                (true, false) => "k -> k (1 - s T/T_r), dT/dt = v^2 - T/tau",
+                (true, true) => "k -> k exp(-s T/T_r), dT/dt = v^2 - T/tau",
+            },
+            reference: "Kalpakidis and Constantinou 2009",
+            limit: "where recordings are short against tau it is cyclic degradation by energy",
+        }
+    }
+
+    fn shape(&self, _: &Sizes) -> Vec<Parameter> {
+        vec![within("s", "", 0.0, 3.0), order_within("tau", "s", COOLING.0, COOLING.1)]
+    }
+
+    fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
+        orders_within(COOLING, 0.1 * sizes.duration, 3.0 * sizes.duration, 4)
+            .into_iter()
+            .map(|tau| vec![0.2, tau])
+            .collect()
+    }
+
+    fn factors(&self, scene: &Scene, shape: &[f64]) -> Option<Factors> {
+        let temperature = self.temperature(scene, shape[1]);
+        Some(if self.exponential {
+            let kept = temperature.iter().map(|t| (-shape[0] * t).exp()).collect();
+            Factors::kept(kept, self.whole)
+        } else {
+            Factors::losing(shape[0], &temperature, self.whole)
+        })
+    }
+}
