@@ -1,14 +1,18 @@
 //! Models by name, and the simulation of an identified device.
 
+use mre::assembly;
 use mre::device::{Device, Level};
 use mre::extent::Extent;
 use mre::model::{self, Model};
 use mre::physics::Classical;
 use numpy::PyArray1;
 use pyo3::prelude::*;
+use pyo3::types::PyMapping;
 
-use crate::error::to_python;
+use crate::effects::{self, Given};
+use crate::error::{setting, to_python};
 use crate::recording::Recording;
+use crate::run::in_pool;
 
 /// Names of the models.
 #[pyfunction]
@@ -23,9 +27,9 @@ pub(crate) fn parameters(model: &str) -> PyResult<Vec<(String, &'static str)>> {
     Ok(model.parameters(&Extent::UNIT).into_iter().map(|p| (p.name, p.unit)).collect())
 }
 
-type Levels = Vec<(Option<f64>, Vec<f64>)>;
+pub(crate) type Levels = Vec<(Option<f64>, Vec<f64>)>;
 
-fn device(model: &str, levels: Levels) -> PyResult<Device> {
+pub(crate) fn device(model: &str, levels: Levels) -> PyResult<Device> {
     let levels = levels.into_iter().map(|(current, values)| Level { current, values }).collect();
     Device::new(Model::named(model).map_err(to_python)?, levels).map_err(to_python)
 }
@@ -36,17 +40,30 @@ pub(crate) fn check(model: &str, levels: Levels) -> PyResult<()> {
     device(model, levels).map(|_| ())
 }
 
-/// Restoring force in N of a model with parameters at levels of the current, over a recording.
+/// Restoring force in N of a model with parameters at levels of the current, and with effects, over a
+/// recording. Effects are `(id, law, coefficients, shapes)`; `sizes` are those of the recordings that they
+/// were fitted to.
 #[pyfunction]
+#[pyo3(signature = (model, levels, recording, effects=Vec::new(), sizes=None))]
 #[allow(clippy::needless_pass_by_value)] // taken over from Python
 pub(crate) fn simulate<'py>(
     py: Python<'py>,
     model: &str,
     levels: Levels,
     recording: Recording,
+    effects: Vec<Given>,
+    sizes: Option<Bound<'py, PyMapping>>,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
     let device = device(model, levels)?;
-    let force = py.detach(|| device.simulate(&recording.inner)).map_err(to_python)?;
+    let additions = effects.into_iter().map(effects::addition).collect::<PyResult<Vec<_>>>()?;
+    let sizes = match sizes {
+        Some(sizes) => effects::sizes(&sizes)?,
+        None if additions.is_empty() => effects::any_sizes(),
+        None => return Err(setting("sizes", "missing", "the sizes of the recordings behind the effects")),
+    };
+    // A pool of its own: the global one does not survive a fork.
+    let job = |_: &_| assembly::simulate(&device, &additions, &sizes, &recording.inner);
+    let force = in_pool(py, Some(1), None, true, job)?.0.map_err(to_python)?;
     Ok(PyArray1::from_vec(py, force))
 }
 

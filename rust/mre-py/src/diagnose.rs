@@ -1,12 +1,15 @@
 //! The diagnosis: recordings in, JSON and force histories out.
 
-use mre::assembly::{Base, Campaign};
-use mre::diagnose::{self, Diagnosis, Estimate, Place, Proof};
+use mre::assembly::{Assembly, Base, Campaign};
+use mre::diagnose::{self, Diagnosis, Estimate, Estimates, Place, Proof};
+use mre::effect::Effect;
 use mre::error::Result;
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 
+use crate::device::{self, Levels};
+use crate::effects::law_of;
 use crate::error::to_python;
 use crate::recording::Recording;
 use crate::run::in_pool;
@@ -15,10 +18,11 @@ type Forces<'py> = Vec<Bound<'py, PyArray1<f64>>>;
 
 /// Diagnose recordings: `(JSON, base force and final force of every recording)`.
 ///
-/// `groups` are the places of recordings that share parameters of the model; where `given` has a force for
-/// every recording, that force is the base instead of the model.
+/// `groups` are the places of recordings that share parameters of the model. Where `held` has levels, the
+/// model keeps them; where `given` has a force for every recording, that force is the base instead of the
+/// model. `base_effects` are `(id, law, shapes to start from)` of effects that belong to the base.
 #[pyfunction]
-#[pyo3(signature = (recordings, model, groups, *, false_alarm, seed, given=None, threads=None))]
+#[pyo3(signature = (recordings, model, groups, *, false_alarm, seed, held=None, given=None, base_effects=Vec::new(), threads=None))]
 #[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)]
 pub(crate) fn diagnose_recordings<'py>(
     py: Python<'py>,
@@ -27,18 +31,26 @@ pub(crate) fn diagnose_recordings<'py>(
     groups: Vec<Vec<usize>>,
     false_alarm: f64,
     seed: u64,
+    held: Option<Levels>,
     given: Option<Vec<Vec<f64>>>,
+    base_effects: Vec<(String, String, Vec<f64>)>,
     threads: Option<i64>,
 ) -> PyResult<(String, Forces<'py>, Forces<'py>)> {
     let recordings: Vec<_> = recordings.into_iter().map(|r| r.inner).collect();
+    let held = held.map(|levels| device::device(model, levels)).transpose()?;
+    let own = base_effects
+        .into_iter()
+        .map(|(id, law, shapes)| Ok((law_of(&id, &law)?, shapes)))
+        .collect::<PyResult<Vec<_>>>()?;
     let (result, _) = in_pool(py, threads, None, true, |_| -> Result<(String, Histories, Histories)> {
         let campaign = Campaign::new(recordings.clone())?;
-        let base = match given {
-            Some(force) => Base::Given(force),
-            None => Base::fitted(&recordings, model, &groups)?,
+        let base = match (held, given) {
+            (Some(device), _) => Base::Held(device),
+            (None, Some(force)) => Base::Given(force),
+            (None, None) => Base::fitted(&recordings, model, &groups)?,
         };
-        let found = diagnose::run(&campaign, &base, &[], false_alarm, seed);
-        Ok((describe(&found, &base).to_string(), found.base_force, found.final_force))
+        let found = diagnose::run(&campaign, &base, &own, false_alarm, seed);
+        Ok((describe(&found, &base, own.len()).to_string(), found.base_force, found.final_force))
     })?;
     let (text, base, last) = result.map_err(to_python)?;
     let arrays = |forces: Histories| forces.into_iter().map(|force| PyArray1::from_vec(py, force)).collect();
@@ -47,14 +59,20 @@ pub(crate) fn diagnose_recordings<'py>(
 
 type Histories = Vec<Vec<f64>>;
 
-fn describe(found: &Diagnosis, base: &Base) -> Value {
+fn describe(found: &Diagnosis, base: &Base, own: usize) -> Value {
     let evidence = &found.evidence;
+    let begun = &found.base.assembly;
+    let of_base = |assembly: &Assembly, estimates: &Estimates| -> Vec<Value> {
+        (0..own).map(|place| law(assembly, estimates, place)).collect()
+    };
     json!({
         "verdict": found.verdict.id(),
         "effects": found.effects.iter().map(|e| effect(found, e)).collect::<Vec<_>>(),
         "where": found.places.iter().map(|f| place(&f.place, f.strength)).collect::<Vec<_>>(),
         "base_levels": levels(base, &found.base_estimates),
         "final_levels": levels(base, &found.estimates),
+        "base_effects": of_base(begun, &found.base_estimates),
+        "final_base_effects": of_base(&found.named.assembly, &found.estimates),
         "before": proof(&found.before),
         "after": proof(&found.after),
         "noise_rms": found.noise_rms,
@@ -90,28 +108,37 @@ fn estimate(e: &Estimate) -> Value {
 }
 
 fn effect(found: &Diagnosis, named: &diagnose::Effect) -> Value {
-    let assembly = &found.named.assembly;
+    let mut row = law(&found.named.assembly, &found.estimates, named.place);
+    row["p_value"] = json!(named.p_value);
+    row["indistinguishable_from"] = json!(named.rivals);
+    row["held_out_rms_before"] = json!(named.held_out_before);
+    row["held_out_rms_after"] = json!(named.held_out_after);
+    row
+}
+
+/// One of the effects of an assembly, with its parameters. Coefficients of the measurement come recording by
+/// recording.
+fn law(assembly: &Assembly, estimates: &Estimates, place: usize) -> Value {
     let sizes = assembly.campaign().sizes();
     let recordings = assembly.campaign().recordings().len();
     let (mut coefficient, mut shape) = (assembly.base_coefficients(), assembly.base_shapes());
-    let copies = |e: &&'static dyn mre::effect::Effect| if e.of_the_measurement() { recordings } else { 1 };
-    for before in &assembly.effects()[..named.place] {
-        coefficient += copies(before) * before.coefficients().len();
-        shape += before.shape(sizes).len();
+    let count = |e: &&'static dyn Effect| {
+        let copies = if e.of_the_measurement() { recordings } else { 1 };
+        (copies * e.coefficients().len(), e.shape(sizes).len())
+    };
+    for before in &assembly.effects()[..place] {
+        let (coefficients, shapes) = count(before);
+        coefficient += coefficients;
+        shape += shapes;
     }
-    let this = &assembly.effects()[named.place];
-    let own = copies(this) * this.coefficients().len();
-    let about = this.about();
-    let coefficients: Vec<Value> =
-        found.estimates.coefficients[coefficient..coefficient + own].iter().map(estimate).collect();
-    let shapes: Vec<Value> =
-        found.estimates.shapes[shape..shape + this.shape(sizes).len()].iter().map(estimate).collect();
+    let this = &assembly.effects()[place];
+    let (about, (coefficients, shapes)) = (this.about(), count(this));
+    let rows = |all: &[Estimate]| all.iter().map(estimate).collect::<Vec<_>>();
     json!({
-        "id": about.effect, "law": about.law, "plain": about.plain, "equation": about.equation,
+        "place": place, "id": about.effect, "law": about.law, "plain": about.plain, "equation": about.equation,
         "reference": about.reference, "limit": about.limit, "of_the_measurement": this.of_the_measurement(),
-        "coefficients": coefficients, "shapes": shapes, "p_value": named.p_value,
-        "indistinguishable_from": named.rivals,
-        "held_out_rms_before": named.held_out_before, "held_out_rms_after": named.held_out_after,
+        "coefficients": rows(&estimates.coefficients[coefficient..coefficient + coefficients]),
+        "shapes": rows(&estimates.shapes[shape..shape + shapes]),
     })
 }
 
@@ -162,5 +189,6 @@ fn sizes(found: &Diagnosis) -> Value {
         "displacement": s.displacement, "velocity": s.velocity, "force": s.force, "step": s.step,
         "duration": s.duration, "total": s.total, "path": s.path, "energy": s.energy,
         "current": s.current, "current_varies": s.current_varies,
+        "quantum": s.quantum,
     })
 }

@@ -8,6 +8,7 @@ mod array;
 mod bounds;
 mod device;
 mod diagnose;
+mod effects;
 mod error;
 mod fit;
 mod outcome;
@@ -25,6 +26,8 @@ mod _core {
     use crate::device::{check, classical, models, parameters, simulate};
     #[pymodule_export]
     use crate::diagnose::diagnose_recordings;
+    #[pymodule_export]
+    use crate::effects::{catalogue, check_effect, effect_parameters};
     #[pymodule_export]
     use crate::error::MreError;
     #[pymodule_export]

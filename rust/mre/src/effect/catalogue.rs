@@ -1,10 +1,125 @@
 //! Every law of every effect.
 
-use super::{Effect, delay, maxwell, payne};
+use super::Effect;
+use super::asymmetric::Asymmetric;
+use super::backlash::Backlash;
+use super::clipping::Clipping;
+use super::coulomb::Coulomb;
+use super::creep::Creep;
+use super::cubic::OddElastic;
+use super::degradation::Degradation;
+use super::delay::TimeDelay;
+use super::drift::Drift;
+use super::end_stop::EndStop;
+use super::field_dependence::FieldDependence;
+use super::field_lag::FieldLag;
+use super::filter_lag::FilterLag;
+use super::fractional::Fractional;
+use super::hysteresis::Hysteresis;
+use super::inertia::Inertia;
+use super::mains::Mains;
+use super::maxwell::Maxwell;
+use super::mullins::{Mullins, Softening};
+use super::payne::{Amplitude, Payne};
+use super::pinching::Pinching;
+use super::quadratic_damping::QuadraticDamping;
+use super::remanence::Remanence;
+use super::rig::Rig;
+use super::stiffness_jump::StiffnessJump;
+use super::stribeck::Stribeck;
+use super::thermal::Thermal;
 
 /// The catalogue: the laws of an effect stand together, its plainest law first.
-pub const CATALOGUE: &[&dyn Effect] =
-    &[&maxwell::Maxwell, &delay::TimeDelay, &payne::Payne { whole: false }, &payne::Payne { whole: true }];
+pub const CATALOGUE: &[&dyn Effect] = &[
+    &Maxwell::One,
+    &Maxwell::Two,
+    &Fractional::Springpot,
+    &Fractional::Maxwell,
+    &Coulomb::Dahl,
+    &Coulomb::Smoothed,
+    &Stribeck::Gaussian,
+    &Stribeck::Exponential,
+    &Stribeck::Hyperbolic,
+    &Hysteresis::BoucWen,
+    &Hysteresis::Jenkins,
+    &Hysteresis::Iwan,
+    &Hysteresis::PowerIwan,
+    &Inertia,
+    &TimeDelay,
+    &OddElastic::Cubic,
+    &OddElastic::Quintic,
+    &OddElastic::Sinh,
+    &OddElastic::Limited,
+    &OddElastic::Saturating,
+    &Asymmetric::Square,
+    &Asymmetric::OneSided,
+    &Asymmetric::Fourth,
+    &QuadraticDamping::Square,
+    &QuadraticDamping::Power,
+    &QuadraticDamping::Eyring,
+    &Mullins { by: Softening::PseudoElastic, whole: false },
+    &Mullins { by: Softening::PseudoElastic, whole: true },
+    &Mullins { by: Softening::Largest, whole: false },
+    &Mullins { by: Softening::Largest, whole: true },
+    &Mullins { by: Softening::Power, whole: false },
+    &Mullins { by: Softening::Power, whole: true },
+    &Degradation { by_energy: false, saturates: false, whole: false },
+    &Degradation { by_energy: false, saturates: false, whole: true },
+    &Degradation { by_energy: false, saturates: true, whole: false },
+    &Degradation { by_energy: false, saturates: true, whole: true },
+    &Degradation { by_energy: true, saturates: false, whole: false },
+    &Degradation { by_energy: true, saturates: false, whole: true },
+    &Degradation { by_energy: true, saturates: true, whole: false },
+    &Degradation { by_energy: true, saturates: true, whole: true },
+    &Thermal { viscous: false, exponential: false, whole: false },
+    &Thermal { viscous: false, exponential: false, whole: true },
+    &Thermal { viscous: false, exponential: true, whole: false },
+    &Thermal { viscous: false, exponential: true, whole: true },
+    &Thermal { viscous: true, exponential: false, whole: false },
+    &Thermal { viscous: true, exponential: false, whole: true },
+    &Payne { by: Amplitude::Forgotten, whole: false },
+    &Payne { by: Amplitude::Forgotten, whole: true },
+    &Payne { by: Amplitude::HalfCycle, whole: false },
+    &Payne { by: Amplitude::HalfCycle, whole: true },
+    &Payne { by: Amplitude::Structure, whole: false },
+    &Payne { by: Amplitude::Structure, whole: true },
+    &StiffnessJump { whole: false },
+    &StiffnessJump { whole: true },
+    &Pinching { shifted: false, whole: false },
+    &Pinching { shifted: false, whole: true },
+    &Pinching { shifted: true, whole: false },
+    &Pinching { shifted: true, whole: true },
+    &Backlash::DeadZone,
+    &Backlash::FreeDeadZone,
+    &Backlash::Play,
+    &EndStop::Both,
+    &EndStop::Positive,
+    &EndStop::Negative,
+    &EndStop::Hertz,
+    &Rig::Spring,
+    &Rig::Viscoelastic,
+    &Drift::Linear,
+    &Drift::Decaying,
+    &Drift::Slow,
+    &Clipping::Both,
+    &Clipping::Upper,
+    &Clipping::Lower,
+    &Mains { harmonics: 1 },
+    &Mains { harmonics: 3 },
+    &FilterLag::Force,
+    &FilterLag::Displacement,
+    &FilterLag::Butterworth,
+    &Creep::Logarithmic,
+    &Creep::Slow,
+    &Creep::Ageing,
+    &Creep::AgeingWhole,
+    &FieldLag::One,
+    &FieldLag::RiseAndFall,
+    &Remanence::Play,
+    &Remanence::Largest,
+    &FieldDependence::Square,
+    &FieldDependence::Saturating,
+];
 
 /// The law of this name of an effect.
 pub fn named(effect: &str, law: &str) -> Option<&'static dyn Effect> {

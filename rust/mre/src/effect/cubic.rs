@@ -20,7 +20,7 @@ const FULL: f64 = 0.98;
 
 /// Form of the odd elastic law.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Cubic {
+pub(super) enum OddElastic {
     /// `x^3`.
     Cubic,
     /// `x^3` and `x^5`.
@@ -33,7 +33,7 @@ pub(super) enum Cubic {
     Saturating,
 }
 
-impl Effect for Cubic {
+impl Effect for OddElastic {
     fn about(&self) -> About {
         let cubic = About {
             effect: "cubic_stiffness",
@@ -45,9 +45,7 @@ impl Effect for Cubic {
         };
         match self {
             Self::Cubic => cubic,
-            Self::Quintic => {
-                About { law: "cubic and quintic", equation: "F_3 = k_3 x^3 + k_5 x^5", ..cubic }
-            }
+            Self::Quintic => About { law: "cubic and quintic", equation: "F_3 = k_3 x^3 + k_5 x^5", ..cubic },
             Self::Sinh => About { law: "hyperbolic sine", equation: "F_3 = alpha sinh(b x)", ..cubic },
             Self::Limited => About {
                 law: "limited extension",
@@ -55,9 +53,7 @@ impl Effect for Cubic {
                 reference: "Warner 1972",
                 ..cubic
             },
-            Self::Saturating => {
-                About { law: "saturating", equation: "F_3 = k_s x_s tanh(x/x_s)", ..cubic }
-            }
+            Self::Saturating => About { law: "saturating", equation: "F_3 = k_s x_s tanh(x/x_s)", ..cubic },
         }
     }
 

@@ -55,10 +55,9 @@ impl Effect for Degradation {
             }
             (true, false, false) => ("energy, stiffness", "k -> k (1 - s E/E_max), E the integral of |F v|"),
             (true, false, true) => ("energy, whole force", "F -> F (1 - s E/E_max), E the integral of |F v|"),
-            (true, true, false) => (
-                "energy, saturating, stiffness",
-                "k -> k (1 - s (1 - exp(-E/E_c))), E the integral of |F v|",
-            ),
+            (true, true, false) => {
+                ("energy, saturating, stiffness", "k -> k (1 - s (1 - exp(-E/E_c))), E the integral of |F v|")
+            }
             (true, true, true) => (
                 "energy, saturating, whole force",
                 "F -> F (1 - s (1 - exp(-E/E_c))), E the integral of |F v|",

@@ -57,7 +57,10 @@ impl Effect for EndStop {
     }
 
     fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
-        [0.4, 0.55, 0.7, 0.8, 0.88, 0.94, 0.975].iter().map(|share| vec![share * sizes.displacement]).collect()
+        [0.4, 0.55, 0.7, 0.8, 0.88, 0.94, 0.975]
+            .iter()
+            .map(|share| vec![share * sizes.displacement])
+            .collect()
     }
 
     fn columns(&self, scene: &Scene, shape: &[f64]) -> Vec<Vec<f64>> {

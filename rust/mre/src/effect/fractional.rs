@@ -99,10 +99,9 @@ impl Effect for Fractional {
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
         match self {
             Self::Springpot => vec![within("a", "", 0.05, 0.95)],
-            Self::Maxwell => vec![
-                within("a", "", 0.05, 0.95),
-                order_within("tau", "s", 2.0 * sizes.step, sizes.duration),
-            ],
+            Self::Maxwell => {
+                vec![within("a", "", 0.05, 0.95), order_within("tau", "s", 2.0 * sizes.step, sizes.duration)]
+            }
         }
     }
 

@@ -25,7 +25,9 @@ pub(super) enum Maxwell {
 /// `z' = v - z / tau` from rest.
 pub(super) fn branch(scene: &Scene, tau: f64) -> Vec<f64> {
     let mut z = lag(scene.time, scene.velocity, tau, 0.0);
-    z.iter_mut().for_each(|z| *z *= tau);
+    for z in &mut z {
+        *z *= tau;
+    }
     z
 }
 

@@ -6,13 +6,40 @@
 //! the base model sees (motion, current), or changes what is measured. Everything else (simulation, joint
 //! fits, diagnosis) follows from that.
 
+mod asymmetric;
+mod backlash;
 mod catalogue;
+mod clipping;
+mod coulomb;
+mod creep;
+mod cubic;
+mod degradation;
 mod delay;
+mod drift;
+mod end_stop;
+mod field_dependence;
+mod field_lag;
+mod filter_lag;
+mod fractional;
+mod hysteresis;
+mod inertia;
 mod initial_state;
+mod mains;
 mod maxwell;
+mod mullins;
+mod operators;
 mod payne;
+mod pinching;
+mod quadratic_damping;
 mod quantisation;
+mod remanence;
+mod rig;
 mod scene;
+mod stiffness_jump;
+mod stribeck;
+#[cfg(test)]
+mod tests;
+mod thermal;
 
 pub use catalogue::{CATALOGUE, named};
 pub use initial_state::{InitialState, starts_in_motion};
@@ -45,6 +72,25 @@ pub struct Factors {
     pub stiffness: Vec<f64>,
     /// On the viscous terms; `None`: unchanged.
     pub damping: Option<Vec<f64>>,
+}
+
+/// No factor falls below this.
+const LEAST_KEPT: f64 = 0.05;
+
+impl Factors {
+    /// The factor that is kept of the stiffness, or of the whole force.
+    fn kept(mut kept: Vec<f64>, whole: bool) -> Self {
+        for k in &mut kept {
+            *k = k.max(LEAST_KEPT);
+        }
+        let damping = whole.then(|| kept.clone());
+        Self { stiffness: kept, damping }
+    }
+
+    /// A share that is lost, times a state that goes from zero to about one.
+    fn losing(share: f64, state: &[f64], whole: bool) -> Self {
+        Self::kept(state.iter().map(|z| 1.0 - share * z).collect(), whole)
+    }
 }
 
 /// Displacement in mm and velocity in mm/s that the base model sees.

@@ -69,7 +69,10 @@ impl Effect for Mullins {
                 ..pseudo_elastic
             },
             Softening::Power => About {
-                law: law("power of the largest strain, stiffness", "power of the largest strain, whole force"),
+                law: law(
+                    "power of the largest strain, stiffness",
+                    "power of the largest strain, whole force",
+                ),
                 equation: "k -> k (1 - s (M/X)^p), M the largest |x| so far, X the largest of all",
                 reference: "Simo 1987",
                 ..pseudo_elastic

@@ -59,6 +59,9 @@ impl Scene<'_> {
     }
 }
 
+/// Sizes are at least this.
+const LEAST: f64 = 1e-9;
+
 /// Sizes over a campaign.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sizes {
@@ -127,6 +130,21 @@ impl Sizes {
             *known = (known.0.min(low), known.1.max(high));
             sizes.current_varies |= r.current().varies();
         }
-        sizes
+        sizes.above_zero()
+    }
+
+    /// Highest less lowest current, A; 1 where it is not known or constant.
+    pub fn current_span(&self) -> f64 {
+        self.current.map(|(low, high)| high - low).filter(|span| *span > 0.0).unwrap_or(1.0)
+    }
+
+    /// The same with sizes of which boxes can be made, where nothing moved or no force was felt.
+    fn above_zero(mut self) -> Self {
+        for size in
+            [&mut self.displacement, &mut self.velocity, &mut self.force, &mut self.path, &mut self.energy]
+        {
+            *size = size.max(LEAST);
+        }
+        self
     }
 }

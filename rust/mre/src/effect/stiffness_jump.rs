@@ -66,7 +66,8 @@ impl Effect for StiffnessJump {
             return None;
         }
         let start = scene.time[0] + since;
-        let kept = scene.time.iter().map(|t| 1.0 - shape[0] * ((t - start) / shape[2]).clamp(0.0, 1.0)).collect();
+        let kept =
+            scene.time.iter().map(|t| 1.0 - shape[0] * ((t - start) / shape[2]).clamp(0.0, 1.0)).collect();
         Some(Factors::kept(kept, self.whole))
     }
 }

@@ -80,7 +80,8 @@ impl Effect for Stribeck {
 
     fn columns(&self, scene: &Scene, shape: &[f64]) -> Vec<Vec<f64>> {
         let side = dahl(scene, PRESLIDING * scene.sizes.displacement);
-        let excess = side.iter().zip(scene.velocity).map(|(z, v)| z * self.excess(v.abs() / shape[0])).collect();
+        let excess =
+            side.iter().zip(scene.velocity).map(|(z, v)| z * self.excess(v.abs() / shape[0])).collect();
         vec![side, excess]
     }
 }

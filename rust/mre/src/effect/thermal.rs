@@ -11,8 +11,8 @@
 //! Reference: Kalpakidis and Constantinou, J. Struct. Eng. 135 (2009) 1394.
 //! Known limit: where the recordings are short against tau it is cyclic degradation by energy.
 
-use super::operators::{lag, orders_within};
-use super::{About, Effect, Factors, Scene, Sizes, order_within, within};
+use super::operators::lag;
+use super::{About, Effect, Factors, Scene, Sizes, order_within, orders, within};
 use crate::parameter::Parameter;
 
 /// Range of the time over which a device cools, s.
@@ -42,7 +42,9 @@ impl Thermal {
         let share = -(-sizes.duration / tau).exp_m1();
         let reference = most / sizes.duration * share;
         let mut state = lag(scene.time, &power, tau, 0.0);
-        state.iter_mut().for_each(|t| *t = (*t / reference).max(0.0));
+        for t in &mut state {
+            *t = (*t / reference).max(0.0);
+        }
         state
     }
 }
@@ -79,10 +81,9 @@ impl Effect for Thermal {
     }
 
     fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
-        orders_within(COOLING, 0.1 * sizes.duration, 3.0 * sizes.duration, 4)
-            .into_iter()
-            .map(|tau| vec![0.2, tau])
-            .collect()
+        let shortest = (0.1 * sizes.duration).clamp(COOLING.0, 0.1 * COOLING.1);
+        let longest = (3.0 * sizes.duration).clamp(3.0 * shortest, COOLING.1);
+        orders(shortest, longest, 4).into_iter().map(|tau| vec![0.2, tau]).collect()
     }
 
     fn factors(&self, scene: &Scene, shape: &[f64]) -> Option<Factors> {

@@ -1,0 +1,126 @@
+//! The catalogue of effects, and effects with their parameters.
+
+use mre::assembly::Addition;
+use mre::effect::{self, CATALOGUE, Effect, Sizes};
+use mre::parameter::Parameter;
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyMapping};
+
+use crate::error::{MreError, setting};
+
+/// Id, law, coefficients, shapes.
+pub(crate) type Given = (String, String, Vec<f64>, Vec<f64>);
+
+/// Every law of every effect: its id and law, what it is in plain words, equation, reference and limit.
+#[pyfunction]
+pub(crate) fn catalogue(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
+    let row = |known: &&'static dyn Effect| {
+        let (row, about) = (PyDict::new(py), known.about());
+        row.set_item("id", about.effect)?;
+        row.set_item("law", about.law)?;
+        row.set_item("plain", about.plain)?;
+        row.set_item("equation", about.equation)?;
+        row.set_item("reference", about.reference)?;
+        row.set_item("limit", about.limit)?;
+        row.set_item("of_the_measurement", known.of_the_measurement())?;
+        Ok(row)
+    };
+    CATALOGUE.iter().map(row).collect()
+}
+
+type Names = Vec<(String, &'static str)>;
+
+/// Names and units of the coefficients of a law and of its shapes, and whether the coefficients belong to
+/// the measurement: they are then no part of a device.
+#[pyfunction]
+pub(crate) fn effect_parameters(id: &str, law: &str) -> PyResult<(Names, Names, bool)> {
+    let known = law_of(id, law)?;
+    let names = |all: Vec<Parameter>| all.into_iter().map(|p| (p.name, p.unit)).collect();
+    Ok((names(known.coefficients()), names(known.shape(&any_sizes())), known.of_the_measurement()))
+}
+
+/// Check an effect with its parameters.
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)] // taken over from Python
+pub(crate) fn check_effect(id: &str, law: &str, coefficients: Vec<f64>, shapes: Vec<f64>) -> PyResult<()> {
+    addition((id.to_owned(), law.to_owned(), coefficients, shapes)).map(|_| ())
+}
+
+pub(crate) fn law_of(id: &str, law: &str) -> PyResult<&'static dyn Effect> {
+    effect::named(id, law).ok_or_else(|| {
+        let (mut ids, mut laws) = (Vec::new(), Vec::new());
+        for about in CATALOGUE.iter().map(|known| known.about()) {
+            ids.push(about.effect);
+            if about.effect == id {
+                laws.push(about.law);
+            }
+        }
+        ids.dedup();
+        if laws.is_empty() {
+            setting("effect", format!("'{id}'"), &format!("one of {}", ids.join(", ")))
+        } else {
+            setting(&format!("law of {id}"), format!("'{law}'"), &format!("one of {}", laws.join(", ")))
+        }
+    })
+}
+
+/// An effect to simulate. One of the measurement has no coefficients.
+pub(crate) fn addition((id, law, coefficients, shape): Given) -> PyResult<Addition> {
+    let effect = law_of(&id, &law)?;
+    let own = if effect.of_the_measurement() { Vec::new() } else { effect.coefficients() };
+    for (kind, wanted, values) in
+        [("coefficients", own, &coefficients), ("shapes", effect.shape(&any_sizes()), &shape)]
+    {
+        if wanted.len() != values.len() {
+            let name = format!("number of {kind} of {id} ({law})");
+            return Err(setting(&name, values.len(), &format!("{} values", wanted.len())));
+        }
+        for (p, value) in wanted.iter().zip(values) {
+            if !value.is_finite() || *value < p.smallest || *value > p.largest {
+                let limits = format!("a finite number from {} to {}", p.smallest, p.largest);
+                return Err(setting(&format!("{} of {id}", p.name), value, &limits));
+            }
+        }
+    }
+    Ok(Addition { effect, coefficients, shape })
+}
+
+/// Sizes of the recordings that effects were fitted to.
+pub(crate) fn sizes(given: &Bound<'_, PyMapping>) -> PyResult<Sizes> {
+    let wrong = |name: &str| MreError::new_err(format!("sizes have no usable '{name}': wanted a number"));
+    let item = |name: &str| given.get_item(name).ok().filter(|value| !value.is_none());
+    let number = |name: &str| -> PyResult<f64> {
+        let value = item(name).and_then(|value| value.extract::<f64>().ok());
+        value.filter(|value| value.is_finite()).ok_or_else(|| wrong(name))
+    };
+    Ok(Sizes {
+        displacement: number("displacement")?,
+        velocity: number("velocity")?,
+        force: number("force")?,
+        step: number("step")?,
+        duration: number("duration")?,
+        total: number("total")?,
+        path: number("path")?,
+        energy: number("energy")?,
+        current: item("current").and_then(|value| value.extract::<[f64; 2]>().ok()).map(|[a, b]| (a, b)),
+        current_varies: item("current_varies").and_then(|v| v.extract().ok()).unwrap_or(false),
+        quantum: item("quantum").and_then(|value| value.extract().ok()),
+    })
+}
+
+/// Sizes for what does not depend on them: how many parameters a law has, and their names and limits.
+pub(crate) fn any_sizes() -> Sizes {
+    Sizes {
+        displacement: 1.0,
+        velocity: 1.0,
+        force: 1.0,
+        step: 0.01,
+        duration: 10.0,
+        total: 10.0,
+        path: 1.0,
+        energy: 1.0,
+        current: Some((0.0, 1.0)),
+        current_varies: true,
+        quantum: None,
+    }
+}

@@ -1,0 +1,127 @@
+//! Creep: logarithmic or very slow relaxation.
+//!
+//! | symbol | meaning | unit | range |
+//! |---|---|---|---|
+//! | `k_c` | stiffness that relaxes, a decade or in all | N/mm | >= 0 |
+//! | `t_0` | time after which it begins | s | two samples to the longest recording |
+//! | `tau_c` | relaxation time | s | 1/3 to 30 times the longest recording |
+//! | s | share of the stiffness lost a decade | - | 0 to 0.4 |
+//!
+//! The logarithmic kernel is a flat spectrum of relaxation times from `t_0` to ten times the recording.
+//! Reference: Findley, Lai and Onaran, Creep and Relaxation of Nonlinear Viscoelastic Materials, 1976.
+//! Known limit: with a mean displacement and in one recording it cannot be told from drift.
+
+use super::maxwell::branch;
+use super::{About, Effect, Factors, Scene, Sizes, order_within, orders, positive, within};
+use crate::parameter::Parameter;
+
+/// Relaxation times a decade in the flat spectrum.
+const A_DECADE: f64 = 2.0;
+
+/// Form of the creep.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Creep {
+    /// The memory of every motion fades with the logarithm of its age.
+    Logarithmic,
+    /// One very slow branch.
+    Slow,
+    /// The stiffness falls with the logarithm of the time since the start.
+    Ageing,
+    /// The whole force falls so.
+    AgeingWhole,
+}
+
+/// Relaxation from rest of one unit of stiffness a decade, from `t_0` to ten times the recording.
+fn flat(scene: &Scene, t_0: f64) -> Vec<f64> {
+    let decades = (10.0 * scene.duration() / t_0).log10().max(0.5);
+    let count = (A_DECADE * decades).ceil() as usize + 1;
+    let weight = decades / count as f64;
+    let mut sum = vec![0.0; scene.len()];
+    for tau in orders(t_0, t_0 * 10.0_f64.powf(decades), count) {
+        for (s, z) in sum.iter_mut().zip(branch(scene, tau)) {
+            *s += weight * z;
+        }
+    }
+    sum
+}
+
+impl Creep {
+    fn ages(self) -> bool {
+        matches!(self, Self::Ageing | Self::AgeingWhole)
+    }
+}
+
+impl Effect for Creep {
+    fn about(&self) -> About {
+        let logarithmic = About {
+            effect: "creep",
+            law: "logarithmic",
+            plain: "the force creeps: it relaxes with the logarithm of time or very slowly",
+            equation: "F_c = sum_i z_i, dz_i/dt = k_c v - z_i/tau_i, tau_i evenly over the decades from t_0 on",
+            reference: "Findley, Lai and Onaran 1976",
+            limit: "with a mean displacement and in one recording it cannot be told from drift",
+        };
+        match self {
+            Self::Logarithmic => logarithmic,
+            Self::Slow => About {
+                law: "one slow branch",
+                equation: "dF_c/dt = k_c v - F_c/tau_c",
+                reference: "Maxwell 1867",
+                ..logarithmic
+            },
+            Self::Ageing => About {
+                law: "ageing, stiffness",
+                equation: "k -> k (1 - s log10(1 + t/t_0))",
+                reference: "Struik, Physical Aging in Amorphous Polymers and Other Materials, 1978",
+                ..logarithmic
+            },
+            Self::AgeingWhole => About {
+                law: "ageing, whole force",
+                equation: "F -> F (1 - s log10(1 + t/t_0))",
+                reference: "Struik, Physical Aging in Amorphous Polymers and Other Materials, 1978",
+                ..logarithmic
+            },
+        }
+    }
+
+    fn coefficients(&self) -> Vec<Parameter> {
+        if self.ages() { Vec::new() } else { vec![positive("k_c", "N/mm")] }
+    }
+
+    fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
+        let t_0 = order_within("t_0", "s", 2.0 * sizes.step, sizes.duration);
+        match self {
+            Self::Logarithmic => vec![t_0],
+            Self::Slow => {
+                vec![order_within("tau_c", "s", sizes.duration / 3.0, 30.0 * sizes.duration)]
+            }
+            Self::Ageing | Self::AgeingWhole => vec![within("s", "", 0.0, 0.4), t_0],
+        }
+    }
+
+    fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
+        let early = (10.0 * sizes.step).min(0.1 * sizes.duration).max(2.0 * sizes.step);
+        let t_0 = orders(early, 0.3 * sizes.duration, 3);
+        match self {
+            Self::Logarithmic => t_0.into_iter().map(|t| vec![t]).collect(),
+            Self::Slow => vec![vec![0.5 * sizes.duration], vec![2.0 * sizes.duration]],
+            Self::Ageing | Self::AgeingWhole => t_0.into_iter().map(|t| vec![0.05, t]).collect(),
+        }
+    }
+
+    fn columns(&self, scene: &Scene, shape: &[f64]) -> Vec<Vec<f64>> {
+        match self {
+            Self::Logarithmic => vec![flat(scene, shape[0])],
+            Self::Slow => vec![branch(scene, shape[0])],
+            Self::Ageing | Self::AgeingWhole => Vec::new(),
+        }
+    }
+
+    fn factors(&self, scene: &Scene, shape: &[f64]) -> Option<Factors> {
+        self.ages().then(|| {
+            let decades = |t: &f64| (1.0 + (t - scene.time[0]) / shape[1]).log10();
+            let lost: Vec<f64> = scene.time.iter().map(decades).collect();
+            Factors::losing(shape[0], &lost, *self == Self::AgeingWhole)
+        })
+    }
+}

@@ -1,0 +1,89 @@
+//! Force drift: the zero of the load cell wanders.
+//!
+//! | symbol | meaning | unit | range |
+//! |---|---|---|---|
+//! | D, `D_k` | drift over the longest recording, in the end, or of a half cosine | N | any, in each recording |
+//! | `tau_d` | time over which it settles | s | 3 % to 200 % of the longest recording |
+//!
+//! Of the measurement, not of the device: a simulation leaves it out.
+//! Known limit: under a mean displacement it cannot be told from creep.
+
+use std::f64::consts::PI;
+
+use super::{About, Effect, Scene, Sizes, order_within, signed};
+use crate::parameter::Parameter;
+
+/// Form of the drift.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Drift {
+    /// In proportion to the time.
+    Linear,
+    /// Settling.
+    Decaying,
+    /// Three half cosines over the recording.
+    Slow,
+}
+
+impl Effect for Drift {
+    fn about(&self) -> About {
+        let linear = About {
+            effect: "force_drift",
+            law: "linear",
+            plain: "the zero of the measured force drifts with time",
+            equation: "F_measured = F + D t/T",
+            reference: "general",
+            limit: "under a mean displacement it cannot be told from creep",
+        };
+        match self {
+            Self::Linear => linear,
+            Self::Decaying => {
+                About { law: "settling", equation: "F_measured = F + D (1 - exp(-t/tau_d))", ..linear }
+            }
+            Self::Slow => About {
+                law: "slow wander",
+                equation: "F_measured = F + sum_k D_k cos(pi k t/T), k = 1 to 3",
+                ..linear
+            },
+        }
+    }
+
+    fn of_the_measurement(&self) -> bool {
+        true
+    }
+
+    fn coefficients(&self) -> Vec<Parameter> {
+        match self {
+            Self::Linear | Self::Decaying => vec![signed("D", "N")],
+            Self::Slow => (1..=3).map(|k| signed(&format!("D_{k}"), "N")).collect(),
+        }
+    }
+
+    fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
+        match self {
+            Self::Decaying => {
+                vec![order_within("tau_d", "s", 0.03 * sizes.duration, 2.0 * sizes.duration)]
+            }
+            Self::Linear | Self::Slow => Vec::new(),
+        }
+    }
+
+    fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
+        match self {
+            Self::Decaying => [0.05, 0.15, 0.5].iter().map(|share| vec![share * sizes.duration]).collect(),
+            Self::Linear | Self::Slow => vec![Vec::new()],
+        }
+    }
+
+    fn columns(&self, scene: &Scene, shape: &[f64]) -> Vec<Vec<f64>> {
+        let column =
+            |value: &dyn Fn(f64) -> f64| scene.time.iter().map(|t| value(t - scene.time[0])).collect();
+        match self {
+            Self::Linear => vec![column(&|t| t / scene.sizes.duration)],
+            Self::Decaying => vec![column(&|t| -(-t / shape[0]).exp_m1())],
+            Self::Slow => {
+                let turn = PI / scene.duration();
+                (1..=3).map(|k| column(&|t| (turn * f64::from(k) * t).cos())).collect()
+            }
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! Field dependence: stiffness and damping follow the current in a way that is not affine.
+//!
+//! | symbol | meaning | unit | range |
+//! |---|---|---|---|
+//! | `k_i`, `c_i`, `k_i3` | change of stiffness, damping and cubic stiffness | N/mm, N s/mm, N/mm^3 | any |
+//! | `I_s` | current of saturation | A | 10 % to 200 % of the span of the current |
+//!
+//! q vanishes at the lowest and at the highest current: what is affine belongs to the base model.
+//! Reference: Jolly, Carlson and Munoz, Smart Mater. Struct. 5 (1996) 607 (saturation).
+//! Known limit: without at least three levels of the current it cannot be seen.
+
+use super::remanence::following;
+use super::{About, Effect, Scene, Sizes, order_within, signed};
+use crate::parameter::Parameter;
+
+/// How the parameters leave the affine law.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum FieldDependence {
+    /// As the square of the current.
+    Square,
+    /// By saturation.
+    Saturating,
+}
+
+impl Effect for FieldDependence {
+    fn about(&self) -> About {
+        let square = About {
+            effect: "field_dependence",
+            law: "square",
+            plain: "stiffness and damping do not follow the current along a straight line",
+            equation: "F_q = (k_i x + c_i v + k_i3 x^3) q, q = (I - I_low)(I - I_high)/(I_high - I_low)^2",
+            reference: "Jolly, Carlson and Munoz 1996",
+            limit: "without at least three levels of the current it cannot be seen",
+        };
+        match self {
+            Self::Square => square,
+            Self::Saturating => About {
+                law: "saturating",
+                equation: "F_q = (k_i x + c_i v + k_i3 x^3) q, q = tanh((I - I_low)/I_s) less its chord",
+                ..square
+            },
+        }
+    }
+
+    fn applies(&self, sizes: &Sizes) -> bool {
+        sizes.current_varies
+    }
+
+    fn coefficients(&self) -> Vec<Parameter> {
+        vec![signed("k_i", "N/mm"), signed("c_i", "N s/mm"), signed("k_i3", "N/mm^3")]
+    }
+
+    fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
+        match self {
+            Self::Square => Vec::new(),
+            Self::Saturating => {
+                let span = sizes.current_span();
+                vec![order_within("I_s", "A", 0.1 * span, 2.0 * span)]
+            }
+        }
+    }
+
+    fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
+        match self {
+            Self::Square => vec![Vec::new()],
+            Self::Saturating => {
+                [0.2, 0.5, 1.2].iter().map(|share| vec![share * sizes.current_span()]).collect()
+            }
+        }
+    }
+
+    fn columns(&self, scene: &Scene, shape: &[f64]) -> Vec<Vec<f64>> {
+        let (span, low) = (scene.sizes.current_span(), scene.sizes.current.map_or(0.0, |(low, _)| low));
+        let bent = |i: &f64| {
+            let u = (i - low) / span;
+            match self {
+                Self::Square => u * (u - 1.0),
+                Self::Saturating => (u * span / shape[0]).tanh() - u * (span / shape[0]).tanh(),
+            }
+        };
+        let still = vec![low; scene.len()];
+        let q: Vec<f64> = scene.current.unwrap_or(&still).iter().map(bent).collect();
+        let mut columns = following(scene, &q);
+        columns.push(q.iter().zip(scene.displacement).map(|(q, x)| q * x * x * x).collect());
+        columns
+    }
+}

@@ -1,0 +1,76 @@
+//! Field lag: the field follows the recorded current with a delay (coil, eddy currents, controller).
+//!
+//! | symbol | meaning | unit | range |
+//! |---|---|---|---|
+//! | `tau_i` | time constant | s | 2 ms to 2 s |
+//! | `tau_u`, `tau_d` | time constants of rise and fall | s | 2 ms to 2 s |
+//!
+//! The field is that of the first current at the start.
+//! Reference: Spencer, Dyke, Sain and Carlson, J. Eng. Mech. 123 (1997) 230 (first-order filter);
+//! Yang, Spencer, Carlson and Sain, Eng. Struct. 24 (2002) 309 (coil).
+//! Known limit: the lag of the coil and that of its controller are one.
+
+use super::operators::lag;
+use super::{About, Effect, Scene, Sizes, order_within};
+use crate::parameter::Parameter;
+
+/// Form of the lag.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum FieldLag {
+    /// One time constant.
+    One,
+    /// One for rise and one for fall.
+    RiseAndFall,
+}
+
+impl Effect for FieldLag {
+    fn about(&self) -> About {
+        let one = About {
+            effect: "field_lag",
+            law: "first order",
+            plain: "the magnetic field follows the coil current with a delay",
+            equation: "dI_f/dt = (I - I_f)/tau_i, the device sees I_f",
+            reference: "Spencer, Dyke, Sain and Carlson 1997",
+            limit: "the lag of the coil and that of its controller are one",
+        };
+        match self {
+            Self::One => one,
+            Self::RiseAndFall => About {
+                law: "rise and fall",
+                equation: "dI_f/dt = (I - I_f)/(tau_u where it rises, tau_d where it falls)",
+                ..one
+            },
+        }
+    }
+
+    fn applies(&self, sizes: &Sizes) -> bool {
+        sizes.current_varies
+    }
+
+    fn shape(&self, _: &Sizes) -> Vec<Parameter> {
+        let tau = |name| order_within(name, "s", 0.002, 2.0);
+        match self {
+            Self::One => vec![tau("tau_i")],
+            Self::RiseAndFall => vec![tau("tau_u"), tau("tau_d")],
+        }
+    }
+
+    fn starts(&self, _: &Sizes) -> Vec<Vec<f64>> {
+        match self {
+            Self::One => vec![vec![0.01], vec![0.05], vec![0.2], vec![0.8]],
+            Self::RiseAndFall => vec![vec![0.02, 0.1], vec![0.1, 0.02], vec![0.1, 0.5], vec![0.5, 0.1]],
+        }
+    }
+
+    fn current(&self, scene: &Scene, shape: &[f64]) -> Option<Vec<f64>> {
+        let (current, time) = (scene.current?, scene.time);
+        Some(match self {
+            Self::One => lag(time, current, shape[0], current[0]),
+            Self::RiseAndFall => scene.trace(current[0], |field, i| {
+                let target = 0.5 * (current[i - 1] + current[i]);
+                let tau = if target > field { shape[0] } else { shape[1] };
+                target + (field - target) * (-(time[i] - time[i - 1]) / tau).exp()
+            }),
+        })
+    }
+}

@@ -1,0 +1,88 @@
+//! Mains interference: a hum of the power supply on the force channel.
+//!
+//! | symbol | meaning | unit | range |
+//! |---|---|---|---|
+//! | `A_k`, `B_k` | sine and cosine of the k-th harmonic | N | any, in each recording |
+//! | f | frequency of the mains | Hz | 45 to 65 |
+//!
+//! Of the measurement, not of the device: a simulation leaves it out.
+//! Known limit: below 2.2 samples a period the hum is aliased and not looked for.
+
+use std::f64::consts::TAU;
+
+use super::{About, Effect, Scene, Sizes, signed, within};
+use crate::parameter::Parameter;
+
+/// Nominal frequencies, Hz.
+const NOMINAL: [f64; 2] = [50.0, 60.0];
+/// Samples a period that are needed.
+const LEAST_RATE: f64 = 2.2;
+
+/// A hum with so many harmonics.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Mains {
+    /// Harmonics, the fundamental included.
+    pub(super) harmonics: u8,
+}
+
+impl Mains {
+    /// The nominal frequencies whose highest harmonic is sampled well enough.
+    fn seen(self, sizes: &Sizes) -> Vec<f64> {
+        let highest = 1.0 / (LEAST_RATE * f64::from(self.harmonics) * sizes.step);
+        NOMINAL.into_iter().filter(|f| *f <= highest).collect()
+    }
+}
+
+impl Effect for Mains {
+    fn about(&self) -> About {
+        let one = self.harmonics == 1;
+        About {
+            effect: "mains_interference",
+            law: if one { "fundamental" } else { "with harmonics" },
+            plain: "the power mains hum on the measured force",
+            equation: if one {
+                "F_measured = F + A_1 sin(2 pi f t) + B_1 cos(2 pi f t)"
+            } else {
+                "F_measured = F + sum_k A_k sin(2 pi k f t) + B_k cos(2 pi k f t), k = 1 to 3"
+            },
+            reference: "general",
+            limit: "below 2.2 samples a period the hum is aliased and not looked for",
+        }
+    }
+
+    fn of_the_measurement(&self) -> bool {
+        true
+    }
+
+    fn applies(&self, sizes: &Sizes) -> bool {
+        !self.seen(sizes).is_empty()
+    }
+
+    fn coefficients(&self) -> Vec<Parameter> {
+        (1..=self.harmonics)
+            .flat_map(|k| [signed(&format!("A_{k}"), "N"), signed(&format!("B_{k}"), "N")])
+            .collect()
+    }
+
+    fn shape(&self, _: &Sizes) -> Vec<Parameter> {
+        vec![within("f", "Hz", 45.0, 65.0)]
+    }
+
+    fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
+        // As far apart as the longest recording resolves.
+        let apart = (0.6 / sizes.duration).clamp(0.02, 0.05);
+        let beside: &[f64] = if self.harmonics == 1 { &[-2.0, -1.0, 0.0, 1.0, 2.0] } else { &[0.0] };
+        self.seen(sizes).iter().flat_map(|f| beside.iter().map(move |k| vec![f + k * apart])).collect()
+    }
+
+    fn columns(&self, scene: &Scene, shape: &[f64]) -> Vec<Vec<f64>> {
+        (1..=self.harmonics)
+            .flat_map(|k| {
+                let turn = TAU * f64::from(k) * shape[0];
+                let phase = move |t: &f64| turn * (t - scene.time[0]);
+                let sin = scene.time.iter().map(|t| phase(t).sin()).collect();
+                [sin, scene.time.iter().map(|t| phase(t).cos()).collect::<Vec<f64>>()]
+            })
+            .collect()
+    }
+}

@@ -1,0 +1,32 @@
+"""What happens in one recording on the fine time grid."""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from .kinematics import Array
+from .paths import Path
+
+
+@dataclass(frozen=True)
+class Track:
+    """One recording on the fine grid: arrays of one length; `pick` holds the samples of the recording."""
+
+    t: Array
+    x: Array
+    v: Array
+    a: Array
+    current: Array
+    h: float
+    pick: slice
+    index: int
+    count: int
+
+    @cached_property
+    def path(self) -> Path:
+        return Path(self.x, self.v, self.h)
+
+    def moved(self, x: Array, v: Array) -> "Track":
+        """The same recording seen by a device that moves otherwise."""
+        return replace(self, x=x, v=v, a=np.gradient(v, self.h))
