@@ -68,8 +68,8 @@ impl Campaign {
         &self.sizes
     }
 
-    /// What effects see of a recording, given the force of the base model alone.
-    pub fn scene<'a>(&'a self, r: usize, force: &'a [f64]) -> Scene<'a> {
+    /// What effects see of a recording, given the force of the base model alone and of the whole device.
+    pub fn scene<'a>(&'a self, r: usize, force: &'a [f64], whole: &'a [f64]) -> Scene<'a> {
         let recording = &self.recordings[r];
         Scene {
             time: recording.time(),
@@ -78,6 +78,7 @@ impl Campaign {
             acceleration: &self.accelerations[r],
             current: self.currents[r].as_deref(),
             force,
+            whole,
             before: self.before[r],
             sizes: &self.sizes,
         }

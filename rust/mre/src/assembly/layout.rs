@@ -18,6 +18,8 @@ pub struct Assembly<'a> {
     pub(super) effects: Vec<&'static dyn Effect>,
     /// Force of the base model alone, by recording.
     reference: Arc<Vec<Vec<f64>>>,
+    /// Force of the device with all its effects, by recording.
+    whole: Arc<Vec<Vec<f64>>>,
     boxes: Vec<Parameter>,
     pub(super) known: Option<Arc<Known>>,
 }
@@ -37,13 +39,15 @@ impl<'a> Assembly<'a> {
             .flat_map(of_group)
             .chain(effects.iter().flat_map(|e| e.shape(campaign.sizes())))
             .collect();
-        Self { campaign, base, effects, reference, boxes, known: None }
+        let whole = reference.clone();
+        Self { campaign, base, effects, reference, whole, boxes, known: None }
     }
 
     /// The same base with other effects.
     pub fn with(&self, effects: Vec<&'static dyn Effect>) -> Self {
         let known = self.known.clone();
-        Self { known, ..Self::new(self.campaign, self.base, effects, self.reference.clone()) }
+        let whole = self.whole.clone();
+        Self { known, whole, ..Self::new(self.campaign, self.base, effects, self.reference.clone()) }
     }
 
     /// The same, with the columns of the base at these shapes at hand.
@@ -67,9 +71,19 @@ impl<'a> Assembly<'a> {
         Self { reference: Arc::new(reference), ..self.clone() }
     }
 
+    /// The same with the force of the whole device at these parameters.
+    pub fn seeing_its_force(&self, unit: &[f64], coefficients: &[f64]) -> Self {
+        let shapes = self.physical(unit);
+        let device = self.device_coefficients();
+        let own: Vec<f64> = coefficients.iter().zip(device).map(|(c, d)| if d { *c } else { 0.0 }).collect();
+        let recordings = 0..self.campaign.recordings().len();
+        let whole = recordings.map(|r| self.columns(r, &shapes).force(&own)).collect();
+        Self { whole: Arc::new(whole), ..self.clone() }
+    }
+
     /// What effects see of a recording.
     pub fn scene(&self, r: usize) -> Scene<'_> {
-        self.campaign.scene(r, &self.reference[r])
+        self.campaign.scene(r, &self.reference[r], &self.whole[r])
     }
 
     /// The campaign.

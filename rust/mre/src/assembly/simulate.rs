@@ -4,10 +4,13 @@ use std::sync::Arc;
 
 use super::campaign::Campaign;
 use crate::device::Device;
-use crate::effect::{Effect, Factors, Sizes};
+use crate::effect::{Effect, Factors, Scene, Sizes};
 use crate::error::{Error, Result};
 use crate::physics::Part;
 use crate::recording::Recording;
+
+/// Passes until the force agrees with what effects saw of it.
+const PASSES: usize = 12;
 
 /// An effect with its parameters.
 #[derive(Clone)]
@@ -37,14 +40,29 @@ pub fn simulate(
         return Ok(alone);
     }
     let campaign = Campaign::with_sizes(vec![recording.clone()], sizes.clone());
-    let scene = campaign.scene(0, &alone);
-    let mut seen = recording.as_ref().clone();
+    let passes = if additions.iter().any(|a| a.effect.follows_the_force()) { PASSES } else { 1 };
+    let mut force = alone.clone();
+    for _ in 0..passes {
+        force = pass(device, additions, recording, &campaign.scene(0, &alone, &force))?;
+    }
+    match force.iter().position(|f| !f.is_finite()) {
+        None => Ok(force),
+        Some(i) => {
+            let text = format!("the force with effects is not finite at {} s", recording.time()[i]);
+            Err(Error::Recording(text).in_recording(recording.name()))
+        }
+    }
+}
+
+/// The force of the device where its effects see a scene.
+fn pass(device: &Device, additions: &[Addition], recording: &Recording, scene: &Scene) -> Result<Vec<f64>> {
+    let mut seen = recording.clone();
     let mut factors: Vec<Factors> = Vec::new();
     for Addition { effect, shape, .. } in additions {
-        let mut own = scene;
+        let mut own = *scene;
         (own.displacement, own.velocity) = (seen.displacement(), seen.velocity());
         let (motion, current) = (effect.motion(&own, shape), effect.current(&own, shape));
-        factors.extend(effect.factors(&scene, shape));
+        factors.extend(effect.factors(scene, shape));
         if motion.is_some() || current.is_some() {
             let (x, v) = motion.map_or_else(
                 || (own.displacement.to_vec(), own.velocity.to_vec()),
@@ -62,7 +80,7 @@ pub fn simulate(
     }
     for Addition { effect, coefficients, shape } in additions {
         if !effect.of_the_measurement() {
-            for (c, column) in coefficients.iter().zip(effect.columns(&scene, shape)) {
+            for (c, column) in coefficients.iter().zip(effect.columns(scene, shape)) {
                 for (f, value) in force.iter_mut().zip(column) {
                     *f += c * value;
                 }
@@ -70,15 +88,9 @@ pub fn simulate(
         }
     }
     for Addition { effect, shape, .. } in additions {
-        force = effect.through(&scene, shape, &force).unwrap_or(force);
+        force = effect.through(scene, shape, &force).unwrap_or(force);
     }
-    match force.iter().position(|f| !f.is_finite()) {
-        None => Ok(force),
-        Some(i) => {
-            let text = format!("the force with effects is not finite at {} s", recording.time()[i]);
-            Err(Error::Recording(text).in_recording(recording.name()))
-        }
-    }
+    Ok(force)
 }
 
 fn factor(factors: &Factors, part: Part, i: usize) -> f64 {

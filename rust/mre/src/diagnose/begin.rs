@@ -46,10 +46,13 @@ pub fn begin<'a>(campaign: &'a Campaign, base: &'a Base, given: &[Given], rows: 
     let assembly = Assembly::new(campaign, base, effects, Arc::new(nothing));
     let white = Noise::white(count, 0.01 * campaign.sizes().force);
     let data = Data { noise: &white, rows };
-    let starts = starts(&assembly, &shapes);
-    let first = starts
+    let known = assembly.base_shapes();
+    let mut all = vec![0.0; known];
+    all.extend(shapes);
+    let given = assembly.unit(&all).split_off(known);
+    let first = starts(base)
         .par_iter()
-        .map(|start| refine_at_most(&assembly, data, start, FEW))
+        .map(|start| refine_at_most(&assembly, data, &[start.as_slice(), &given].concat(), FEW))
         .collect::<Vec<_>>()
         .into_iter()
         .min_by(|a, b| a.left.total_cmp(&b.left))
@@ -65,10 +68,8 @@ pub fn begin<'a>(campaign: &'a Campaign, base: &'a Base, given: &[Given], rows: 
     Begun { assembly, fitted, noise }
 }
 
-/// Points of the unit box for the shapes of every group, the same place in each group, and the shapes of the
-/// effects.
-fn starts(assembly: &Assembly, given: &[f64]) -> Vec<Vec<f64>> {
-    let base = assembly.base();
+/// Points of the unit box for the shapes of the base: the same place in each group.
+pub(super) fn starts(base: &Base) -> Vec<Vec<f64>> {
     let shapes = base.groups().first().map_or(0, |g| g.shapes.len());
     let places: Vec<Vec<f64>> = match shapes {
         0 => vec![Vec::new()],
@@ -84,15 +85,5 @@ fn starts(assembly: &Assembly, given: &[f64]) -> Vec<Vec<f64>> {
             })
             .collect(),
     };
-    let known = assembly.base_shapes();
-    places
-        .into_iter()
-        .map(|start| {
-            let mut all = vec![0.0; known];
-            all.extend_from_slice(given);
-            let mut unit = assembly.unit(&all);
-            unit.splice(..known, start.repeat(base.groups().len()));
-            unit
-        })
-        .collect()
+    places.into_iter().map(|start| start.repeat(base.groups().len())).collect()
 }

@@ -3,12 +3,21 @@
 
 use rayon::prelude::*;
 
-use super::least_squares::{Data, Fitted, Point, refine};
+use super::begin::starts;
+use super::least_squares::{Data, Fitted, Point, refine, refine_at_most};
 use super::noise::Noise;
 use super::screen::{Null, Score};
 use crate::assembly::Assembly;
 use crate::effect::{CATALOGUE, Effect};
 
+/// The best of them are also fitted from other shapes of the base.
+const UNBENT: usize = 3;
+/// Steps of such fits before the best is fitted to the end.
+const FEW_STEPS: usize = 6;
+/// Repetitions of a fit whose effect follows from the force.
+const PASSES: usize = 4;
+/// Candidates closer than this in the criterion fit equally well.
+const TIE: f64 = 4.0;
 /// A candidate whose score is below this share of the best is not refitted.
 const PROMISING: f64 = 0.15;
 
@@ -24,8 +33,17 @@ pub struct Candidate<'a> {
 impl Candidate<'_> {
     /// Whitened Bayesian information criterion, up to a constant.
     pub fn criterion(&self) -> f64 {
-        let parameters = self.fitted.coefficients.len() + self.fitted.unit.len();
-        self.fitted.left + parameters as f64 * (self.fitted.rows as f64).ln()
+        self.fitted.left + self.parameters() as f64 * (self.fitted.rows as f64).ln()
+    }
+
+    fn parameters(&self) -> usize {
+        self.fitted.coefficients.len() + self.fitted.unit.len()
+    }
+
+    /// Place of the last law in the catalogue.
+    fn place(&self) -> usize {
+        let last = self.assembly.effects().last().map(|e| e.about());
+        CATALOGUE.iter().position(|e| Some(e.about()) == last).unwrap_or(usize::MAX)
     }
 }
 
@@ -100,8 +118,41 @@ pub(super) fn joint<'a>(
     let wider = assembly.with(effects);
     let mut shapes = assembly.physical(unit);
     shapes.extend_from_slice(start);
-    let fitted = refine(&wider, data, &wider.unit(&shapes));
-    Candidate { assembly: wider, fitted }
+    let unit = wider.unit(&shapes);
+    fit(wider, data, &unit)
+}
+
+/// Fit from a point of the unit box; repeated where an effect follows from the force that is fitted.
+pub(super) fn fit<'a>(mut assembly: Assembly<'a>, data: Data, unit: &[f64]) -> Candidate<'a> {
+    let mut fitted = refine(&assembly, data, unit);
+    if assembly.effects().iter().any(|e| e.follows_the_force()) {
+        for _ in 0..PASSES {
+            assembly = assembly.seeing_its_force(&fitted.unit, &fitted.coefficients);
+            fitted = refine(&assembly, data, &fitted.unit);
+        }
+    }
+    Candidate { assembly, fitted }
+}
+
+/// The better of a fit and of fits from other shapes of the base: its own have bent to hide the effect.
+pub(super) fn unbent<'a>(candidate: Candidate<'a>, data: Data) -> Candidate<'a> {
+    let known = candidate.assembly.base_shapes();
+    let others = starts(candidate.assembly.base());
+    let tried: Vec<Candidate> = others
+        .into_par_iter()
+        .filter(|start| !start.is_empty())
+        .map(|start| {
+            let mut unit = candidate.fitted.unit.clone();
+            unit.splice(..known, start);
+            let short = refine_at_most(&candidate.assembly, data, &unit, FEW_STEPS);
+            Candidate { assembly: candidate.assembly.clone(), fitted: short }
+        })
+        .collect();
+    let best = tried.into_iter().min_by(|a, b| a.fitted.left.total_cmp(&b.fitted.left));
+    match best {
+        Some(best) if best.fitted.left < candidate.fitted.left => fit(best.assembly, data, &best.fitted.unit),
+        _ => candidate,
+    }
 }
 
 /// Joint fits of the most promising laws, best first.
@@ -117,5 +168,13 @@ pub(super) fn candidates<'a>(
         .map(|score| joint(assembly, data, unit, score.effect, &score.start))
         .collect();
     found.sort_by(|a, b| a.criterion().total_cmp(&b.criterion()));
+    let rest = found.split_off(found.len().min(UNBENT));
+    found = found.into_par_iter().map(|c| unbent(c, data)).collect();
+    found.extend(rest);
+    found.sort_by(|a, b| a.criterion().total_cmp(&b.criterion()));
+    // In a tie the plainest is named: fewest parameters, then the first of the catalogue.
+    let best = found.first().map_or(0.0, Candidate::criterion);
+    let tied = found.partition_point(|c| c.criterion() <= best + TIE);
+    found[..tied].sort_by_key(|c| (c.parameters(), c.place()));
     found
 }

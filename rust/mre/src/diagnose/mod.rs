@@ -11,6 +11,7 @@ mod bounded;
 mod candidates;
 mod distribution;
 mod features;
+mod hum;
 mod intervals;
 mod least_squares;
 mod locate;

@@ -2,12 +2,15 @@
 //!
 //! Up to 0.3 s long, which keeps tests on white, strongly correlated, 1/f and narrow-band noise near their
 //! level where short or Yule-Walker ones do not; shorter where Akaike's criterion finds no use for the length.
+//! A hum of the power mains is no noise: it is an effect of the measurement, and taken off before.
+//!
 //! Recordings of one sampling rate share it, each with its own size, unless they plainly differ: what is
 //! estimated from more samples is estimated better, and tests far out in the tail need that.
 
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
+use super::hum::without_hum;
 use crate::kernel::filter::{dot, prediction_error};
 
 /// Length of the autoregression, s.
@@ -38,8 +41,11 @@ impl Noise {
     /// Noise of residuals in N; `steps` are the time steps in s, `freedom` the parameters that were fitted
     /// to all residuals together.
     pub fn of(residuals: &[Vec<f64>], steps: &[f64], freedom: usize) -> Self {
-        let products: Vec<Products> =
-            residuals.par_iter().zip(steps).map(|(e, step)| Products::of(e, *step)).collect();
+        let products: Vec<Products> = residuals
+            .par_iter()
+            .zip(steps)
+            .map(|(e, step)| Products::of(&without_hum(e, *step), *step))
+            .collect();
         let total: usize = residuals.iter().map(Vec::len).sum();
         let mut filters: Vec<Option<Filter>> = vec![None; residuals.len()];
         for r in 0..residuals.len() {
@@ -58,7 +64,7 @@ impl Noise {
                 let share = freedom as f64 * residuals[*s].len() as f64 / total as f64;
                 let members = if shared { alike.len() } else { 1 };
                 let used = share + choice.coefficients.len() as f64 / members as f64;
-                filters[*s] = Some(Filter::of(&residuals[*s], choice.coefficients.clone(), used));
+                filters[*s] = Some(Filter::of(&residuals[*s], steps[*s], choice.coefficients.clone(), used));
             }
         }
         Self { filters: filters.into_iter().flatten().collect() }
@@ -89,9 +95,9 @@ impl Noise {
 }
 
 impl Filter {
-    fn of(residual: &[f64], coefficients: Vec<f64>, used: f64) -> Self {
+    fn of(residual: &[f64], step: f64, coefficients: Vec<f64>, used: f64) -> Self {
         let floor = dot(residual, residual) / residual.len() as f64;
-        let errors = prediction_error(residual, &coefficients, 1.0);
+        let errors = prediction_error(&without_hum(residual, step), &coefficients, 1.0);
         let left = (errors.len() as f64 - used).max(0.5 * errors.len() as f64);
         let variance = dot(&errors, &errors) / left;
         // A residual of zeros is no noise: keep the numbers finite.

@@ -3,7 +3,7 @@
 use super::absorbed::{Absorbed, absorbed};
 use super::alternatives::rivals;
 use super::begin::{Begun, Given, begin};
-use super::candidates::{by_effect, residuals};
+use super::candidates::{Candidate, by_effect, fit, residuals};
 use super::intervals::{Estimates, estimates};
 use super::least_squares::{Data, Fitted, Point, refine};
 use super::locate::{Finding, locate};
@@ -162,7 +162,8 @@ fn settle_reference(named: &mut Named, rows: &[Rows]) {
         let data = Data { noise: &named.noise, rows };
         let force = named.assembly.base_force(&named.fitted.unit, &named.fitted.coefficients);
         named.assembly = named.assembly.referring_to(force);
-        named.fitted = refine(&named.assembly, data, &named.fitted.unit);
+        let Candidate { assembly, fitted } = fit(named.assembly.clone(), data, &named.fitted.unit);
+        (named.assembly, named.fitted) = (assembly, fitted);
     }
 }
 

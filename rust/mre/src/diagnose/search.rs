@@ -9,8 +9,8 @@
 use rayon::prelude::*;
 
 use super::begin::Begun;
-use super::candidates::{Candidate, by_effect, candidates, joint, noise_left, residuals, scores};
-use super::least_squares::{Data, Fitted, refine};
+use super::candidates::{Candidate, by_effect, candidates, fit, joint, noise_left, residuals, scores};
+use super::least_squares::{Data, Fitted};
 use super::noise::Noise;
 use super::normal::Rows;
 use super::prove::{Split, prove};
@@ -100,14 +100,14 @@ impl<'a> Search<'_, 'a> {
     /// Score the catalogue beside a model, with the noise that the best of a few candidates leaves.
     fn look(&self, assembly: Assembly<'a>, unit: &[f64], noise: &Noise) -> Named<'a> {
         let data = Data { noise, rows: self.rows };
-        let first = refine(&assembly, data, unit);
+        let Candidate { assembly, fitted: first } = fit(assembly, data, unit);
         let found = scores(&assembly, data, &first.unit, self.seed);
         let noise = match candidates(&assembly, data, &first.unit, &found, FEW).first() {
             Some(best) => noise_left(&best.assembly, data, &best.fitted),
             None => noise_left(&assembly, data, &first),
         };
         let data = Data { noise: &noise, rows: self.rows };
-        let fitted = refine(&assembly, data, &first.unit);
+        let Candidate { assembly, fitted } = fit(assembly, data, &first.unit);
         let found = scores(&assembly, data, &fitted.unit, self.seed);
         let next = candidates(&assembly, data, &fitted.unit, &found, REFITTED).into_iter().next();
         Named { assembly, fitted, noise, scores: found, next, p_values: Vec::new() }
@@ -188,8 +188,8 @@ impl<'a> Search<'_, 'a> {
         let count = named.assembly.effects()[place].shape(sizes).len();
         shapes.drain(first..first + count);
         let data = Data { noise: &named.noise, rows: self.rows };
-        let fitted = refine(&narrower, data, &narrower.unit(&shapes));
-        Candidate { assembly: narrower, fitted }
+        let unit = narrower.unit(&shapes);
+        fit(narrower, data, &unit)
     }
 
     /// The first of the best pair, where the pair from another first is clearly better than the pair from

@@ -26,7 +26,7 @@ use super::quadratic_damping::QuadraticDamping;
 use super::remanence::Remanence;
 use super::rig::Rig;
 use super::stiffness_jump::StiffnessJump;
-use super::stribeck::Stribeck;
+use super::stribeck::{Fall, Stribeck};
 use super::thermal::Thermal;
 
 /// The catalogue: the laws of an effect stand together, its plainest law first.
@@ -37,9 +37,12 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &Fractional::Maxwell,
     &Coulomb::Dahl,
     &Coulomb::Smoothed,
-    &Stribeck::Gaussian,
-    &Stribeck::Exponential,
-    &Stribeck::Hyperbolic,
+    &Stribeck { fall: Fall::Gaussian, rests: false },
+    &Stribeck { fall: Fall::Gaussian, rests: true },
+    &Stribeck { fall: Fall::Exponential, rests: false },
+    &Stribeck { fall: Fall::Exponential, rests: true },
+    &Stribeck { fall: Fall::Hyperbolic, rests: false },
+    &Stribeck { fall: Fall::Hyperbolic, rests: true },
     &Hysteresis::BoucWen,
     &Hysteresis::Jenkins,
     &Hysteresis::Iwan,

@@ -35,7 +35,7 @@ pub(super) enum Creep {
 fn flat(scene: &Scene, t_0: f64) -> Vec<f64> {
     let decades = (10.0 * scene.duration() / t_0).log10().max(0.5);
     let count = (A_DECADE * decades).ceil() as usize + 1;
-    let weight = decades / count as f64;
+    let weight = decades / (count - 1) as f64;
     let mut sum = vec![0.0; scene.len()];
     for tau in orders(t_0, t_0 * 10.0_f64.powf(decades), count) {
         for (s, z) in sum.iter_mut().zip(branch(scene, tau)) {

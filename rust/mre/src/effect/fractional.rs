@@ -4,11 +4,11 @@
 //! |---|---|---|---|
 //! | `c_a` | coefficient of the springpot | N s^a/mm | >= 0 |
 //! | `k_a` | stiffness of the spring in series | N/mm | >= 0 |
-//! | a | order of the derivative; the loss angle is a pi/2 | - | 0.05 to 0.95 |
+//! | a | order of the derivative; the loss angle is a pi/2 | - | 0.05 to 0.95 (0.85 in series) |
 //! | tau | time at which the springpot takes over from the spring | s | two samples to the longest recording |
 //!
 //! The relaxation kernel is a sum of exponentials, by the trapezoidal rule for its spectrum in the logarithm
-//! of the rate. Rates beyond the sum act as a dashpot (fast) or a spring (slow) and are summed in closed form.
+//! of the rate. Rates beyond the sum act as a dashpot (fast) or a spring (slow), in closed form.
 //! Reference: Koeller, J. Appl. Mech. 51 (1984) 299; Mainardi, Fractional Calculus and Waves in Linear
 //! Viscoelasticity, 2010; Beylkin and Monzon, Appl. Comput. Harmon. Anal. 28 (2010) 131.
 //! Known limit: over less than about 1.5 decades of frequency it looks like one Maxwell branch.
@@ -19,8 +19,10 @@ use super::maxwell::branch;
 use super::{About, Effect, Scene, Sizes, order_within, orders, positive, within};
 use crate::parameter::Parameter;
 
-/// Spacing of the rates, in their natural logarithm: the rule is then exact to 2e-4.
+/// Spacing of the rates, in their natural logarithm, for a springpot: the rule is then exact to 2e-4.
 const SPACING: f64 = 1.15;
+/// The same for the narrower spectrum of a springpot and a spring: exact to 4e-3 up to the largest order.
+const CLOSE_SPACING: f64 = 0.6;
 
 /// Where the springpot stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,23 +33,25 @@ pub(super) enum Fractional {
     Maxwell,
 }
 
-/// Relaxation from rest with the spectrum `weight(rate)` over the logarithm of the rate; `fast` and `slow`
-/// are the exponents with which `weight(rate) / rate` and `weight(rate)` fall beyond the sum.
-fn relaxation(scene: &Scene, fast: f64, slow: f64, weight: impl Fn(f64) -> f64) -> Vec<f64> {
+/// Relaxation from rest with the spectrum `weight(rate)` over the logarithm of the rate; `beyond(low, high)`
+/// are its integral below a rate and the integral of `weight(rate) / rate` above one.
+fn relaxation(
+    scene: &Scene,
+    spacing: f64,
+    weight: impl Fn(f64) -> f64,
+    beyond: impl Fn(f64, f64) -> (f64, f64),
+) -> Vec<f64> {
     let (lowest, highest) = (0.1 / scene.duration(), 10.0 / scene.step());
-    let count = ((highest / lowest).ln() / SPACING).ceil() as usize + 1;
-    let rate = |j: usize| lowest * (SPACING * j as f64).exp();
-    // Geometric series beyond both ends.
-    let beyond = |exponent: f64| 1.0 / (exponent * SPACING).exp_m1();
-    let top = rate(count - 1);
-    let dashpot = SPACING * weight(top) / top * beyond(fast);
-    let spring = SPACING * weight(lowest) * beyond(slow);
+    let count = ((highest / lowest).ln() / spacing).ceil() as usize + 1;
+    let rate = |j: f64| lowest * (spacing * j).exp();
+    let (spring, dashpot) = beyond(rate(-0.5), rate(count as f64 - 0.5));
     let x0 = scene.displacement[0];
-    let mut sum: Vec<f64> =
-        scene.displacement.iter().zip(scene.velocity).map(|(x, v)| spring * (x - x0) + dashpot * v).collect();
+    let motion = scene.displacement.iter().zip(scene.velocity);
+    let mut sum: Vec<f64> = motion.map(|(x, v)| spring * (x - x0) + dashpot * v).collect();
     for j in 0..count {
-        let w = SPACING * weight(rate(j));
-        for (s, z) in sum.iter_mut().zip(branch(scene, 1.0 / rate(j))) {
+        let rate = rate(j as f64);
+        let w = spacing * weight(rate);
+        for (s, z) in sum.iter_mut().zip(branch(scene, 1.0 / rate)) {
             *s += w * z;
         }
     }
@@ -57,15 +61,25 @@ fn relaxation(scene: &Scene, fast: f64, slow: f64, weight: impl Fn(f64) -> f64) 
 /// Caputo derivative of order `a` of the displacement, from rest.
 fn derivative(scene: &Scene, a: f64) -> Vec<f64> {
     let scale = (PI * a).sin() / PI;
-    relaxation(scene, 1.0 - a, a, |rate| scale * rate.powf(a))
+    relaxation(
+        scene,
+        SPACING,
+        |rate| scale * rate.powf(a),
+        |low, high| (scale * low.powf(a) / a, scale * high.powf(a - 1.0) / (1.0 - a)),
+    )
 }
 
 /// Spring of stiffness one in series with a springpot.
 fn series(scene: &Scene, a: f64, tau: f64) -> Vec<f64> {
     let (sin, cos) = (PI * a).sin_cos();
-    relaxation(scene, 1.0 + a, a, |rate| {
+    let weight = |rate: f64| {
         let r = (rate * tau).powf(a);
         sin / PI * r / (r * r + 2.0 * r * cos + 1.0)
+    };
+    relaxation(scene, CLOSE_SPACING, weight, |low, high| {
+        let slow = (((low * tau).powf(a) + cos) / sin).atan() - (cos / sin).atan();
+        // Above all rates of interest the spectrum falls about as the inverse of the rate does.
+        (slow / (PI * a), weight(high) / high)
     })
 }
 
@@ -100,7 +114,7 @@ impl Effect for Fractional {
         match self {
             Self::Springpot => vec![within("a", "", 0.05, 0.95)],
             Self::Maxwell => {
-                vec![within("a", "", 0.05, 0.95), order_within("tau", "s", 2.0 * sizes.step, sizes.duration)]
+                vec![within("a", "", 0.05, 0.85), order_within("tau", "s", 2.0 * sizes.step, sizes.duration)]
             }
         }
     }

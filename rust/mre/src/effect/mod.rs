@@ -38,6 +38,7 @@ mod scene;
 mod stiffness_jump;
 mod stribeck;
 #[cfg(test)]
+#[allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 mod tests;
 mod thermal;
 
@@ -142,6 +143,12 @@ pub trait Effect: Send + Sync {
 
     /// True where the effect happens at one moment of one recording.
     fn in_one_recording(&self) -> bool {
+        false
+    }
+
+    /// True where the effect follows from the force of the device with all its effects: a fit is then
+    /// repeated until that force agrees with what the effect saw.
+    fn follows_the_force(&self) -> bool {
         false
     }
 

@@ -5,7 +5,7 @@
 //! | `f_r` | flexibility of the rig, 1/`k_r` | mm/N | 0 to half the flexibility of the device |
 //! | `t_r` | retardation time of a rig that gives way slowly | s | two samples to half the longest recording |
 //!
-//! The force that bends the rig is that of the base model alone: first order in the flexibility.
+//! The force that bends the rig is that of the device, as far as it is known.
 //! Reference: a spring, or a Kelvin-Voigt element, in series.
 //! Known limit: for a linear device it is part of k0 and c0.
 
@@ -61,12 +61,16 @@ impl Effect for Rig {
         }
     }
 
+    fn follows_the_force(&self) -> bool {
+        true
+    }
+
     fn motion(&self, scene: &Scene, shape: &[f64]) -> Option<Motion> {
         let slow = match self {
             Self::Spring => None,
-            Self::Viscoelastic => Some(lag(scene.time, scene.force, shape[1], scene.force[0])),
+            Self::Viscoelastic => Some(lag(scene.time, scene.whole, shape[1], scene.whole[0])),
         };
-        let force = slow.as_deref().unwrap_or(scene.force);
+        let force = slow.as_deref().unwrap_or(scene.whole);
         let less =
             |series: &[f64], by: &[f64]| series.iter().zip(by).map(|(a, b)| a - shape[0] * b).collect();
         Some(Motion {

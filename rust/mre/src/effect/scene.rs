@@ -17,6 +17,8 @@ pub struct Scene<'a> {
     pub current: Option<&'a [f64]>,
     /// Force of the base model as fitted without effects, N.
     pub force: &'a [f64],
+    /// Force of the device with all its effects, N, as far as it is known: that of the base at first.
+    pub whole: &'a [f64],
     /// Time of all recordings before this one in the campaign, s.
     pub before: f64,
     /// Sizes over the campaign.

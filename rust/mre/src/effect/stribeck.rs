@@ -6,7 +6,8 @@
 //! | `F_b` | excess of the break-away force over it | N | >= 0 |
 //! | `v_s` | Stribeck velocity | mm/s | 0.5 % to 60 % of the largest speed |
 //!
-//! The sign of the velocity is Dahl's element with a pre-sliding of 0.1 % of the largest stroke.
+//! The sign of the velocity is Dahl's element with a pre-sliding of 0.1 % of the largest stroke, which holds
+//! its force at rest, or a steep function of the velocity, which does not.
 //! Reference: Armstrong-Helouvry, Dupont and Canudas de Wit, Automatica 30 (1994) 1083.
 //! Known limit: at speeds above three times `v_s` it is Coulomb friction.
 
@@ -17,9 +18,21 @@ use crate::parameter::Parameter;
 /// Pre-sliding displacement, share of the largest stroke.
 const PRESLIDING: f64 = 1e-3;
 
+/// Speed at which a friction that rests without force has three quarters of it, share of the largest speed.
+const REST: f64 = 2e-3;
+
+/// A law of the excess, with or without force at rest.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Stribeck {
+    /// How the excess falls.
+    pub(super) fall: Fall,
+    /// True where the friction vanishes at rest instead of holding.
+    pub(super) rests: bool,
+}
+
 /// How the excess falls with the speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Stribeck {
+pub(super) enum Fall {
     /// `exp(-u^2)`.
     Gaussian,
     /// `exp(-u)`.
@@ -28,7 +41,7 @@ pub(super) enum Stribeck {
     Hyperbolic,
 }
 
-impl Stribeck {
+impl Fall {
     /// Share of the excess at the speed `u v_s`.
     fn excess(self, u: f64) -> f64 {
         match self {
@@ -36,6 +49,12 @@ impl Stribeck {
             Self::Exponential => (-u).exp(),
             Self::Hyperbolic => 1.0 / (1.0 + u),
         }
+    }
+}
+
+impl Stribeck {
+    fn named(self, holds: &'static str, rests: &'static str) -> &'static str {
+        if self.rests { rests } else { holds }
     }
 }
 
@@ -49,16 +68,16 @@ impl Effect for Stribeck {
             reference: "Stribeck 1902; Armstrong-Helouvry, Dupont and Canudas de Wit 1994",
             limit: "above three times v_s it is Coulomb friction",
         };
-        match self {
-            Self::Gaussian => gaussian,
-            Self::Exponential => About {
-                law: "exponential",
+        match self.fall {
+            Fall::Gaussian => About { law: self.named("Gaussian", "Gaussian, no force at rest"), ..gaussian },
+            Fall::Exponential => About {
+                law: self.named("exponential", "exponential, no force at rest"),
                 equation: "F_f = [F_c + F_b exp(-|v|/v_s)] sgn v",
                 reference: "Tustin 1947; Bo and Pavelescu 1982",
                 ..gaussian
             },
-            Self::Hyperbolic => About {
-                law: "hyperbolic",
+            Fall::Hyperbolic => About {
+                law: self.named("hyperbolic", "hyperbolic, no force at rest"),
                 equation: "F_f = [F_c + F_b/(1 + |v|/v_s)] sgn v",
                 reference: "general",
                 ..gaussian
@@ -79,9 +98,13 @@ impl Effect for Stribeck {
     }
 
     fn columns(&self, scene: &Scene, shape: &[f64]) -> Vec<Vec<f64>> {
-        let side = dahl(scene, PRESLIDING * scene.sizes.displacement);
+        let side: Vec<f64> = if self.rests {
+            scene.velocity.iter().map(|v| (v / (REST * scene.sizes.velocity)).tanh()).collect()
+        } else {
+            dahl(scene, PRESLIDING * scene.sizes.displacement)
+        };
         let excess =
-            side.iter().zip(scene.velocity).map(|(z, v)| z * self.excess(v.abs() / shape[0])).collect();
+            side.iter().zip(scene.velocity).map(|(z, v)| z * self.fall.excess(v.abs() / shape[0])).collect();
         vec![side, excess]
     }
 }

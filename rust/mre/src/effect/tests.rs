@@ -1,7 +1,9 @@
 //! Laws against closed forms, and what every law has to keep.
 
-mod closed_forms;
+mod channels;
+mod columns;
 mod every_law;
+mod softening;
 
 use std::f64::consts::TAU;
 
@@ -53,6 +55,7 @@ impl Stage {
             acceleration: &self.acceleration,
             current: self.current.as_deref(),
             force: &self.force,
+            whole: &self.force,
             before: 0.0,
             sizes: &self.sizes,
         }
@@ -77,4 +80,12 @@ fn harmonic(stage: &Stage, series: &[f64], frequency: f64, periods: f64) -> (f64
         sums = (sums.0 + y * sin, sums.1 + y * cos, sums.2 + 0.5);
     }
     (sums.0 / sums.2, sums.1 / sums.2)
+}
+
+fn column(effect: &str, name: &str, scene: &Scene, shape: &[f64]) -> Vec<f64> {
+    law(effect, name).columns(scene, shape).swap_remove(0)
+}
+
+fn close(found: f64, wanted: f64, share: f64) {
+    assert!((found - wanted).abs() <= share * wanted.abs(), "{found} instead of {wanted}");
 }

@@ -1,12 +1,13 @@
 //! What every law has to keep.
 
 use std::collections::BTreeSet;
+use std::f64::consts::TAU;
 
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
 
 use super::super::{CATALOGUE, Effect, Scene};
-use super::{Stage, TAU};
+use super::Stage;
 use crate::parameter::{Parameter, Scale};
 
 /// Ids of the contract.
@@ -41,13 +42,13 @@ const IDS: [&str; 27] = [
 ];
 
 fn uniform(random: &mut ChaCha8Rng) -> f64 {
-    random.next_u32() as f64 / f64::from(u32::MAX)
+    f64::from(random.next_u32()) / f64::from(u32::MAX)
 }
 
 /// Random multisine with a rest in the middle, slightly uneven steps, and a current.
 fn stage(seed: u64, amplitude: f64) -> Stage {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let time: Vec<f64> = (0..1200).map(|i| 0.005 * (i as f64 + 0.3 * uniform(&mut random))).collect();
+    let time: Vec<f64> = (0..1200).map(|i| 0.005 * (f64::from(i) + 0.3 * uniform(&mut random))).collect();
     let waves: Vec<[f64; 3]> = (0..6)
         .map(|k| [uniform(&mut random), 0.4 + 1.1 * f64::from(k), TAU * uniform(&mut random)])
         .collect();
@@ -174,7 +175,7 @@ fn a_magnitude_of_zero_changes_nothing() {
     let stage = stage(7, 4.0);
     let scene = stage.scene();
     for effect in CATALOGUE {
-        for start in effect.starts(&stage.sizes).iter_mut() {
+        for start in &mut effect.starts(&stage.sizes) {
             if let Some(factors) = effect.factors(&scene, start) {
                 assert_eq!(effect.shape(&stage.sizes)[0].name, "s", "{:?}", effect.about());
                 start[0] = 0.0;

@@ -1,0 +1,141 @@
+//! Channels of motion, force and current against closed forms.
+
+use std::f64::consts::TAU;
+
+use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
+
+use super::{Stage, close, column, grid, harmonic, law};
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        cases: 24,
+        rng_seed: RngSeed::Fixed(1),
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
+
+    #[test]
+    fn filters_have_their_gains(corner in 3.0..60.0_f64, n in 125..2000_u32) {
+        let f = 1000.0 / f64::from(n);
+        let stage = Stage::sine(1.0, f, 4.0 / f + 2.0);
+        let scene = stage.scene();
+        let ratio = f / corner;
+        let lag = 1.0 / (TAU * corner);
+        let first = law("filter_lag", "force, first order").through(&scene, &[lag], scene.displacement);
+        let (sin, cos) = harmonic(&stage, &first.unwrap(), f, 2.0);
+        close(sin.hypot(cos), 1.0 / (1.0 + ratio * ratio).sqrt(), 5e-3);
+        prop_assert!((cos.atan2(sin) + ratio.atan()).abs() < 5e-3);
+        let second = law("filter_lag", "force, Butterworth").through(&scene, &[corner], scene.displacement);
+        let (sin, cos) = harmonic(&stage, &second.unwrap(), f, 2.0);
+        close(sin.hypot(cos), 1.0 / (1.0 + ratio.powi(4)).sqrt(), 5e-3);
+    }
+}
+
+#[test]
+fn a_constant_force_passes_every_filter() {
+    let stage = Stage::sine(1.0, 1.0, 2.0);
+    let scene = stage.scene();
+    let constant = vec![7.0; scene.len()];
+    for (name, shape) in [("force, first order", 0.01), ("force, Butterworth", 20.0)] {
+        let passed = law("filter_lag", name).through(&scene, &[shape], &constant).unwrap();
+        assert!(passed.iter().all(|f| (f - 7.0).abs() < 1e-9));
+    }
+}
+
+#[test]
+fn a_delay_of_samples_is_a_shift() {
+    let stage = Stage::sine(2.0, 1.0, 2.0);
+    let scene = stage.scene();
+    let late = law("time_delay", "pure delay").through(&scene, &[0.003], scene.force).unwrap();
+    for (late, force) in late[13..].iter().zip(&scene.force[10..]) {
+        assert!((late - force).abs() < 1e-6);
+    }
+}
+
+#[test]
+fn a_lagged_displacement_channel_is_undone() {
+    // x_device = sin; the channel shows its first-order lag, whose derivative restores it.
+    let stage = Stage::sine(1.0, 1.0, 2.0);
+    let scene = stage.scene();
+    let seen = law("filter_lag", "displacement, first order").motion(&scene, &[0.01]).unwrap();
+    let i = 777;
+    assert!((seen.displacement[i] - (scene.displacement[i] + 0.01 * scene.velocity[i])).abs() < 1e-12);
+}
+
+#[test]
+fn free_play_removes_its_gap() {
+    let stage = Stage::sine(2.0, 1.0, 3.0);
+    let scene = stage.scene();
+    for name in ["dead zone", "play"] {
+        let seen = law("backlash", name).motion(&scene, &[0.4]).unwrap();
+        let far = seen.displacement.iter().fold(0.0_f64, |far, x| far.max(x.abs()));
+        close(far, 1.6, 1e-6);
+    }
+    let play = law("backlash", "play").motion(&scene, &[0.4]).unwrap();
+    assert!(play.velocity.contains(&0.0));
+    // On the way back from the peak the device stays until the gap of twice 0.4 is crossed.
+    assert_eq!(play.displacement[1300], play.displacement[1250]);
+}
+
+#[test]
+fn a_stiff_rig_takes_its_share_of_the_motion() {
+    let stage = Stage::sine(2.0, 1.0, 3.0);
+    let scene = stage.scene();
+    let seen = law("rig_compliance", "spring in series").motion(&scene, &[0.01]).unwrap();
+    let i = 1234;
+    assert!((seen.displacement[i] - (scene.displacement[i] - 0.01 * scene.force[i])).abs() < 1e-12);
+    let rate = 5.0 * scene.velocity[i] - 0.3 * TAU * TAU * scene.displacement[i];
+    assert!((seen.velocity[i] - (scene.velocity[i] - 0.01 * rate)).abs() < 1e-4);
+}
+
+#[test]
+fn the_field_follows_a_step_of_the_current() {
+    let time = grid(1e-3, 2.0);
+    let current: Vec<f64> = time.iter().map(|t| if *t < 0.5 { 1.0 } else { 2.0 }).collect();
+    let stage = Stage::new(time, |t| ((TAU * t).sin(), TAU * (TAU * t).cos()), Some(current));
+    for (name, shape) in [("first order", vec![0.1]), ("rise and fall", vec![0.1, 1.5])] {
+        let field = law("field_lag", name).current(&stage.scene(), &shape).unwrap();
+        assert_eq!(field[400], 1.0);
+        assert!((field[600] - (2.0 - (-1.0_f64).exp())).abs() < 0.01);
+    }
+}
+
+#[test]
+fn what_is_affine_in_the_current_belongs_to_the_base() {
+    let time = grid(1e-2, 4.0);
+    let current: Vec<f64> = time.iter().map(|t| 0.5 + 0.25 * t).collect();
+    let stage = Stage::new(time, |t| ((TAU * t).sin() + 0.3, TAU * (TAU * t).cos()), Some(current));
+    for (name, shape) in [("square", vec![]), ("saturating", vec![0.4])] {
+        let q = column("field_dependence", name, &stage.scene(), &shape);
+        assert!(q[0].abs() < 1e-12 && q[400].abs() < 1e-12 && q[210].abs() > 0.05);
+    }
+}
+
+#[test]
+fn the_play_of_a_rising_current_lags_by_its_width() {
+    let time = grid(1e-2, 4.0);
+    let current: Vec<f64> = time.iter().map(|t| 0.5 * t).collect();
+    let stage = Stage::new(time, |t| (1.0 + 0.1 * t, 0.1), Some(current));
+    let q = column("field_remanence", "play", &stage.scene(), &[0.2]);
+    let x = stage.recording.displacement();
+    assert!((q[300] + 0.2 * x[300]).abs() < 1e-12);
+}
+
+#[test]
+fn drift_and_hum_are_of_the_measurement() {
+    let stage = Stage::sine(2.0, 1.0, 4.0);
+    let scene = stage.scene();
+    close(column("force_drift", "linear", &scene, &[])[4000], 1.0, 1e-12);
+    close(column("force_drift", "settling", &scene, &[2.0])[2000], 1.0 - (-1.0_f64).exp(), 1e-12);
+    let hum = law("mains_interference", "fundamental").columns(&scene, &[50.0]);
+    assert!((hum[0][5] - 1.0).abs() < 1e-9 && (hum[1][10] + 1.0).abs() < 1e-9);
+    for effect in ["force_drift", "mains_interference"] {
+        assert!(
+            crate::effect::CATALOGUE
+                .iter()
+                .filter(|e| e.about().effect == effect)
+                .all(|e| e.of_the_measurement())
+        );
+    }
+}

@@ -1,0 +1,142 @@
+//! Columns against closed forms.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
+
+use super::{Stage, close, column, grid, harmonic};
+use crate::kernel::hysteretic;
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        cases: 24,
+        rng_seed: RngSeed::Fixed(1),
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
+
+    #[test]
+    fn a_springpot_has_the_complex_stiffness_of_its_order(a in 0.08..0.92_f64, n in 125..2000_u32) {
+        // Whole samples a period.
+        let f = 1000.0 / f64::from(n);
+        let stage = Stage::sine(1.0, f, 40.0 / f);
+        let series = column("fractional_viscoelasticity", "springpot", &stage.scene(), &[a]);
+        let (sin, cos) = harmonic(&stage, &series, f, 4.0);
+        let (size, phase) = (sin.hypot(cos), cos.atan2(sin));
+        close(size, (TAU * f).powf(a), 0.01);
+        prop_assert!((phase - a * FRAC_PI_2).abs() < 0.01, "{phase} instead of {}", a * FRAC_PI_2);
+    }
+
+    #[test]
+    fn a_springpot_in_series_has_the_complex_stiffness_of_the_cole_cole_law(
+        a in 0.1..0.85_f64, tau in 0.01..1.0_f64, n in 125..2000_u32,
+    ) {
+        // Whole samples a period.
+        let f = 1000.0 / f64::from(n);
+        let stage = Stage::sine(1.0, f, 40.0 / f);
+        let name = "springpot and spring in series";
+        let series = column("fractional_viscoelasticity", name, &stage.scene(), &[a, tau]);
+        let (sin, cos) = harmonic(&stage, &series, f, 4.0);
+        let pot = nalgebra::Complex::new(0.0, TAU * f * tau).powf(a);
+        let wanted = pot / (pot + 1.0);
+        prop_assert!((sin - wanted.re).abs() < 0.01 && (cos - wanted.im).abs() < 0.01, "{sin} {cos}, {wanted}");
+    }
+
+    #[test]
+    fn a_maxwell_branch_has_its_complex_stiffness(tau in 0.01..0.5_f64, n in 125..2000_u32) {
+        let f = 1000.0 / f64::from(n);
+        let stage = Stage::sine(2.0, f, 10.0 / f + 12.0 * tau);
+        let series = column("maxwell_relaxation", "one branch", &stage.scene(), &[tau]);
+        let (sin, cos) = harmonic(&stage, &series, f, 2.0);
+        let wt = TAU * f * tau;
+        close(sin, 2.0 * wt * wt / (1.0 + wt * wt), 5e-3);
+        close(cos, 2.0 * wt / (1.0 + wt * wt), 5e-3);
+    }
+}
+
+#[test]
+fn a_springpot_answers_a_ramp_with_a_power_of_time() {
+    let stage = Stage::new(grid(0.01, 10.0), |t| (t, 1.0), None);
+    let series = column("fractional_viscoelasticity", "springpot", &stage.scene(), &[0.5]);
+    // D^(1/2) t = 2 sqrt(t / pi).
+    for i in [50, 200, 1000] {
+        close(series[i], 2.0 * (stage.recording.time()[i] / PI).sqrt(), 0.01);
+    }
+}
+
+#[test]
+fn a_maxwell_branch_answers_a_ramp_exactly_on_any_grid() {
+    let time = vec![0.0, 0.1, 0.15, 0.4, 0.41, 0.9, 2.0, 2.1, 2.2, 5.0];
+    let stage = Stage::new(time.clone(), |t| (3.0 * t, 3.0), None);
+    let z = column("maxwell_relaxation", "one branch", &stage.scene(), &[0.3]);
+    for (t, z) in time.iter().zip(z) {
+        assert!((z - 0.9 * (1.0 - (-t / 0.3).exp())).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn the_bouc_wen_law_is_that_of_the_base_model() {
+    let stage = Stage::sine(3.0, 1.0, 4.0);
+    let mut wanted = vec![0.0; stage.force.len()];
+    let shape = [1.3, 0.7, 1.8];
+    hysteretic::trace(stage.recording.time(), stage.recording.velocity(), shape, &mut wanted);
+    assert_eq!(column("hysteresis", "Bouc-Wen", &stage.scene(), &shape), wanted);
+}
+
+#[test]
+fn an_elastic_plastic_element_has_its_loop_area() {
+    let (amplitude, r) = (2.0, 0.5);
+    let stage = Stage::sine(amplitude, 1.0, 3.0);
+    let p = column("hysteresis", "elastic-plastic element", &stage.scene(), &[r]);
+    let (time, v) = (stage.recording.time(), stage.recording.velocity());
+    let last = 2000..3000;
+    let area: f64 = last.map(|i| 0.5 * (time[i + 1] - time[i]) * (p[i] * v[i] + p[i + 1] * v[i + 1])).sum();
+    close(area, 4.0 * r * (amplitude - r), 1e-3);
+}
+
+#[test]
+fn a_uniform_iwan_body_loads_along_a_parabola() {
+    let stage = Stage::new(grid(1e-3, 1.0), |t| (t, 1.0), None);
+    let f = column("hysteresis", "Iwan, uniform yields", &stage.scene(), &[1.0]);
+    for i in [200, 500, 900] {
+        let x = 1e-3 * i as f64;
+        assert!((f[i] - (x - 0.5 * x * x)).abs() < 2e-3);
+    }
+    let same = column("hysteresis", "Iwan, power distribution of yields", &stage.scene(), &[1.0, 1.0]);
+    assert_eq!(f, same);
+}
+
+#[test]
+fn dahl_slides_as_its_closed_form_and_coulomb_dissipates_four_strokes() {
+    let stage = Stage::new(grid(1e-3, 1.0), |t| (t, 1.0), None);
+    let z = column("coulomb_friction", "Dahl", &stage.scene(), &[0.1]);
+    assert!((z[150] - (1.0 - (-1.5_f64).exp())).abs() < 1e-12);
+    let stage = Stage::sine(2.0, 1.0, 3.0);
+    let (time, v) = (stage.recording.time(), stage.recording.velocity());
+    for (name, shape) in [("Dahl", 1e-3), ("smoothed sign", 0.05)] {
+        let z = column("coulomb_friction", name, &stage.scene(), &[shape]);
+        let area: f64 =
+            (2000..3000).map(|i| 0.5 * (time[i + 1] - time[i]) * (z[i] * v[i] + z[i + 1] * v[i + 1])).sum();
+        close(area, 8.0, 2e-3);
+    }
+}
+
+#[test]
+fn inertia_is_in_newtons_for_kilograms() {
+    let stage = Stage::sine(10.0, 1.0, 3.0);
+    let a = column("inertia", "moving mass", &stage.scene(), &[]);
+    let (sin, _) = harmonic(&stage, &a, 1.0, 2.0);
+    close(sin, -0.01 * TAU * TAU, 1e-3);
+}
+
+#[test]
+fn a_flat_spectrum_relaxes_with_the_logarithm_of_time() {
+    // A step held: each decade of time loses one unit of stiffness.
+    let motion = |t: f64| if t < 0.005 { (0.0, 200.0) } else { (1.0, 0.0) };
+    let stage = Stage::new(grid(0.01, 100.0), motion, None);
+    let f = column("creep", "logarithmic", &stage.scene(), &[0.1]);
+    for i in [100, 200, 300] {
+        close(f[i] - f[10 * i], 1.0, 0.03);
+    }
+}

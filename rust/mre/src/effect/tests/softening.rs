@@ -1,0 +1,69 @@
+//! Factors against closed forms.
+
+use std::f64::consts::TAU;
+
+use super::{Stage, close, grid, law};
+use crate::effect::Scene;
+
+#[test]
+fn pseudo_elastic_softening_is_nothing_on_the_virgin_curve() {
+    let stage = Stage::sine(2.0, 0.5, 2.0);
+    let law = law("mullins_softening", "Ogden-Roxburgh, stiffness");
+    let factor = law.factors(&stage.scene(), &[0.4, 0.5, 0.0]).unwrap().stiffness;
+    assert!(factor[..500].iter().all(|f| (f - 1.0).abs() < 1e-8), "first loading");
+    // At x = 0 after the first peak the argument is (2/0.5)^2 = 16: all is lost that can be.
+    close(factor[1000], 0.6, 1e-6);
+    // Where W_m - W = m / 2 on the way back, erf(1/2) of the share is lost.
+    let x = stage.recording.displacement();
+    let at = (500..1000)
+        .min_by(|i, j| (x[*i] - 3.875_f64.sqrt()).abs().total_cmp(&(x[*j] - 3.875_f64.sqrt()).abs()));
+    close(factor[at.unwrap_or(0)], 1.0 - 0.4 * 0.520_499_878, 5e-3);
+}
+
+#[test]
+fn degradation_reaches_its_share_at_the_longest_path() {
+    let stage = Stage::sine(2.0, 1.0, 5.0);
+    for name in ["path, stiffness", "energy, stiffness"] {
+        let factor = law("cyclic_degradation", name).factors(&stage.scene(), &[0.3]).unwrap().stiffness;
+        close(factor[5000], 0.7, 2e-3);
+        close(factor[2500], 0.85, 2e-3);
+    }
+}
+
+#[test]
+fn heat_recovers_at_rest() {
+    let motion = |t: f64| if t < 5.0 { ((TAU * t).sin(), TAU * (TAU * t).cos()) } else { (0.0, 0.0) };
+    let stage = Stage::new(grid(1e-3, 15.0), motion, None);
+    let factor = law("thermal_softening", "linear, stiffness").factors(&stage.scene(), &[0.3, 2.0]).unwrap();
+    let lost = |i: usize| 1.0 - factor.stiffness[i];
+    close(lost(12_000) / lost(10_000), (-1.0_f64).exp(), 1e-6);
+}
+
+#[test]
+fn the_amplitude_of_the_last_half_cycle_is_that_of_the_sine() {
+    let stage = Stage::sine(3.0, 1.0, 4.0);
+    let factors =
+        law("payne_softening", "last half cycle, stiffness").factors(&stage.scene(), &[0.5, 3.0, 1.0]);
+    let stiffness = factors.unwrap().stiffness;
+    assert_eq!(stiffness[100], 1.0);
+    assert!(stiffness[1000..].iter().all(|f| (f - 0.75).abs() < 1e-4));
+}
+
+#[test]
+fn a_structure_settles_between_breaking_and_rebuilding() {
+    let stage = Stage::new(grid(1e-2, 20.0), |t| (2.0 * t, 2.0), None);
+    let factors = law("payne_softening", "structure, stiffness").factors(&stage.scene(), &[1.0, 0.5, 3.0]);
+    // b = r v t_a / (1 + r v t_a) = 3/4.
+    close(factors.unwrap().stiffness[2000], 0.25, 1e-6);
+}
+
+#[test]
+fn a_jump_falls_in_one_recording() {
+    let stage = Stage::sine(2.0, 1.0, 4.0);
+    let jump = law("stiffness_jump", "stiffness");
+    let scene = Scene { before: 100.0, ..stage.scene() };
+    let factor = jump.factors(&scene, &[0.3, 102.0, 1e-3]).unwrap().stiffness;
+    assert_eq!((factor[1999], factor[2002]), (1.0, 0.7));
+    assert!(jump.factors(&scene, &[0.3, 99.0, 1e-3]).is_none());
+    assert!(jump.factors(&scene, &[0.3, 104.5, 1e-3]).is_none());
+}
