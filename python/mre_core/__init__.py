@@ -7,6 +7,9 @@ from ._core import MreError, Problem, Recording, __version__, inertia_weight, mo
 from .asktell import AskTell
 from .certificate import Certificate, certificate
 from .chunks import read_chunks
+from .diagnose import diagnose
+from .diagnosis import Diagnosis
+from .effects import Effect
 from .errors import ExtrapolationWarning, InputError, UnitAssumedWarning
 from .fits import exact, hybrid
 from .identify import Identification, identify
@@ -19,6 +22,8 @@ from .swarms import afsa, mafsa, pso
 __all__ = [
     "AskTell",
     "Certificate",
+    "Diagnosis",
+    "Effect",
     "ExtrapolationWarning",
     "Fit",
     "Identification",
@@ -35,6 +40,7 @@ __all__ = [
     "__version__",
     "afsa",
     "certificate",
+    "diagnose",
     "exact",
     "from_dataframe",
     "hybrid",

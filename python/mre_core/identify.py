@@ -4,8 +4,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
-import numpy as np
-
 from ._core import Problem, Recording, check_certifiable, parameters
 from .certificate import certificate
 from .errors import InputError
@@ -16,6 +14,7 @@ from .minimise import draw_seed
 from .model import Level, Model
 from .results import StopReason, SwarmResult
 from .swarms import afsa, mafsa, pso
+from .tested import largest_motion
 
 SWARMS: dict[str, Callable[..., SwarmResult]] = {"mafsa": mafsa, "afsa": afsa, "pso": pso}
 OPTIMIZERS = (*SWARMS, "exact", "hybrid")
@@ -130,7 +129,7 @@ def identify(
         if run.reason is StopReason.INTERRUPTED:
             everything = [r for _, done in groups[: i + 1] for r in done]
             break
-    found = Model(name, tuple(levels), _tested(everything))
+    found = Model(name, tuple(levels), largest_motion(everything))
     fits = tuple(measure_fit(found, recording) for recording in everything)
     return Identification(found, tuple(runs), fits, optimizer, seed)
 
@@ -151,13 +150,6 @@ def _optimise(
         return run
     best = exact(problem, **shared)
     return replace(run, optimum=min(best.fitness, run.fitness))
-
-
-def _tested(recordings: Sequence[Recording]) -> dict[str, float]:
-    return {
-        "displacement_mm": max(float(np.abs(r.displacement).max()) for r in recordings),
-        "velocity_mm_s": max(float(np.abs(r.velocity).max()) for r in recordings),
-    }
 
 
 def _start(model: Model, problem: Problem, current: float | None) -> list[float]:

@@ -13,9 +13,13 @@ from numpy.typing import NDArray
 
 from . import _core
 from ._core import Recording
+from .effects import Effect
 from .errors import ExtrapolationWarning, InputError
+from .tested import beyond_tested
 
 SCHEMA = "mre-core/model/1"
+SIMULATED = "simulated"
+"""In place of a model's name: the force that a user's own simulation gives for the recording."""
 _LARGEST_FILE = 50_000_000
 
 
@@ -43,9 +47,13 @@ class Model:
     tested: Mapping[str, float] = field(default_factory=dict)
     """Largest absolute displacement (``displacement_mm``) and velocity (``velocity_mm_s``) in the
     recordings that the model was identified from."""
+    effects: tuple[Effect, ...] = ()
+    """Effects beside the model's equation, in the order in which they act."""
+    sizes: Mapping[str, Any] = field(default_factory=dict)
+    """Sizes of the recordings that the effects were fitted to, from which some effects take their scale."""
 
     def __post_init__(self) -> None:
-        known = [name for name, _ in _core.parameters(self.name)]
+        known = list(self.units)
         if not self.levels:
             raise InputError("the model has no levels", wanted="at least one level of parameters")
         for level in self.levels:
@@ -53,21 +61,32 @@ class Model:
                 raise InputError(
                     f"parameters of {self.name} are {', '.join(level.parameters)}", wanted=", ".join(known)
                 )
-        _core.check(self.name, [(level.current, self.values(level)) for level in self.levels])
+        if self.effects and not self.sizes:
+            raise InputError(
+                "the model has effects and no sizes", wanted="sizes of the recordings behind them"
+            )
+        if self.name != SIMULATED:
+            _core.check(self.name, self.given())
 
-    def values(self, level: Level) -> list[float]:
-        """Parameters of a level in the order of the equation."""
-        return [float(level.parameters[name]) for name, _ in _core.parameters(self.name)]
+    @property
+    def units(self) -> dict[str, str]:
+        """Parameters of the model without its effects and their units, in the order of the equation."""
+        return {} if self.name == SIMULATED else dict(_core.parameters(self.name))
+
+    def given(self) -> list[tuple[float | None, list[float]]]:
+        """Levels as the core takes them."""
+        return [
+            (level.current, [float(level.parameters[name]) for name in self.units]) for level in self.levels
+        ]
 
     def to_dict(self) -> dict[str, Any]:
         """Content of a model file."""
-        units = dict(_core.parameters(self.name))
         levels = []
         for level in self.levels:
             row: dict[str, Any] = {
                 "current_A": level.current,
                 "parameters": {
-                    name: {"value": level.parameters[name], "unit": unit} for name, unit in units.items()
+                    name: {"value": level.parameters[name], "unit": unit} for name, unit in self.units.items()
                 },
             }
             if self.name == "bouc_wen":
@@ -76,9 +95,10 @@ class Model:
         return {
             "schema": SCHEMA,
             "model": self.name,
-            "effects": [],
+            "effects": [effect.to_dict() for effect in self.effects],
             "levels": levels,
             "tested": dict(self.tested),
+            "sizes": dict(self.sizes),
         }
 
     @classmethod
@@ -93,8 +113,6 @@ class Model:
         try:
             if content["schema"] != SCHEMA:
                 raise InputError(f"schema is {content['schema']!r}", file=file, wanted=SCHEMA)
-            if content.get("effects"):
-                raise InputError("the model has effects", file=file, wanted="a model without effects")
             levels = tuple(
                 Level(
                     None if level["current_A"] is None else float(level["current_A"]),
@@ -103,7 +121,8 @@ class Model:
                 for level in content["levels"]
             )
             tested = {str(name): float(value) for name, value in content.get("tested", {}).items()}
-            return cls(str(content["model"]), levels, tested)
+            effects = tuple(Effect.from_dict(effect) for effect in content.get("effects", []))
+            return cls(str(content["model"]), levels, tested, effects, dict(content.get("sizes", {})))
         except (KeyError, TypeError, AttributeError) as error:
             raise InputError(f"not a model: {error!r}", file=file, wanted=f"a {SCHEMA} file") from None
         except ValueError as error:
@@ -151,7 +170,9 @@ def classical(parameters: Mapping[str, float]) -> dict[str, float | None]:
 
 
 def simulate(model: Model | str | os.PathLike[str], recording: Recording) -> NDArray[np.float64]:
-    """Restoring force of a model over a recording, whose own force is not looked at.
+    """Restoring force of a model with its effects over a recording, whose own force is not looked at.
+
+    It is the device's force: without drift, interference and clipping of the measurement.
 
     Parameters
     ----------
@@ -177,32 +198,15 @@ def simulate(model: Model | str | os.PathLike[str], recording: Recording) -> NDA
     """
     if not isinstance(model, Model):
         model = Model.load(model)
-    for message in _outside(model, recording):
+    for message in beyond_tested(model, recording):
         warnings.warn(message, ExtrapolationWarning, stacklevel=2)
-    levels = [(level.current, model.values(level)) for level in model.levels]
-    return _core.simulate(model.name, levels, recording)
-
-
-def _outside(model: Model, recording: Recording) -> list[str]:
-    """One sentence for every tested range that a recording leaves by more than 1 %."""
-    found = []
-    series = {"displacement_mm": recording.displacement, "velocity_mm_s": recording.velocity}
-    for key, values in series.items():
-        largest, tested = float(np.abs(values).max()), model.tested.get(key)
-        if tested is not None and largest > 1.01 * tested:
-            what, _, unit = key.partition("_")
-            unit = unit.replace("_", "/")
-            found.append(f"{what} goes to {largest:.4g} {unit}, tested up to {tested:.4g} {unit}")
-    known = [level.current for level in model.levels if level.current is not None]
-    if known and recording.current is not None:
-        current = np.asarray(recording.current)
-        low, high = float(current.min()), float(current.max())
-        margin = 0.02 + 0.02 * max(abs(value) for value in known)
-        if low < min(known) - margin or high > max(known) + margin:
-            span = f"goes from {low:.4g} A to {high:.4g} A" if low < high else f"is {low:.4g} A"
-            found.append(
-                f"current {span}, tested from {min(known):.4g} A to"
-                f" {max(known):.4g} A: the force of the nearest tested current is taken"
-            )
-    name = f"recording '{recording.name}': " if recording.name else ""
-    return [name + sentence for sentence in found]
+    effects = [effect.given() for effect in model.effects]
+    if model.name != SIMULATED:
+        return _core.simulate(model.name, model.given(), recording, effects, model.sizes or None)
+    if recording.simulated is None:
+        raise InputError(
+            f"recording '{recording.name}' has no simulated force", wanted="a column simulated_force_N"
+        )
+    if effects:
+        raise InputError("effects on a simulated force", wanted="a model with parameters")
+    return recording.simulated

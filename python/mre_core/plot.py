@@ -13,11 +13,13 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
+    from .diagnosis import History
     from .results import SwarmResult
 
 _MEASURED = {"color": "0.6", "linewidth": 1.8, "label": "measured"}
 _MODEL = {"color": "black", "linewidth": 0.9, "linestyle": "--", "label": "model"}
 _MOST_POINTS = 20_000
+_MOST_POINTS_A_PANEL = 1_500
 
 
 def plot_fit(model: Model, recording: Recording) -> "Figure":
@@ -66,6 +68,40 @@ def plot_fit(model: Model, recording: Recording) -> "Figure":
         f"{recording.name or 'recording'}{current}: {model.name}, rms error {fit.rms:.3g} N"
         f" ({100 * fit.relative_rms:.3g} % of the force's)"
     )
+    return figure
+
+
+def plot_diagnosis(history: "History") -> "Figure":
+    """Force against displacement, and what the models leave over time, before and after.
+
+    Parameters
+    ----------
+    history : History
+        Forces over one recording.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Readable in grey.
+    """
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(9, 3.6), layout="constrained")
+    loop, left = figure.subplots(1, 2)
+    shown = slice(None, None, max(1, len(history.time) // _MOST_POINTS_A_PANEL))
+    x = history.displacement[shown]
+    loop.plot(x, history.measured[shown], **_MEASURED)
+    loop.plot(x, history.base[shown], color="0.35", linewidth=0.9, linestyle=":", label="base model")
+    loop.plot(x, history.final[shown], **_MODEL | {"label": "with effects"})
+    loop.set_xlabel("displacement / mm")
+    loop.set_ylabel("force / N")
+    loop.legend(loc="upper left", fontsize="small")
+    time = history.time[shown]
+    left.plot(time, (history.measured - history.base)[shown], color="0.6", linewidth=0.9, label="before")
+    left.plot(time, (history.measured - history.final)[shown], color="black", linewidth=0.6, label="after")
+    left.set_xlabel("time / s")
+    left.set_ylabel("measured - model / N")
+    left.legend(loc="upper right", fontsize="small")
     return figure
 
 

@@ -6,18 +6,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from . import laws as laws
-from .devices import Device, drawn
+from .bench import FINE, Bench, rms
+from .devices import drawn
 from .excitations import Excitation
 from .kinematics import Array
-from .law import Added, Law, Rig, drawn_law, laws_of
+from .law import Law, drawn_law, laws_of
 from .noise import noisy
 from .programmes import campaign_of
-from .refit import unexplained
-from .simulate import Chain, Shown, shown
-from .strength import solved
+from .simulate import Shown
 
-FINE = 1600.0
-"""Least rate (Hz) of the fine grid."""
 OWN_EXCITATION = {
     "field_lag": "field",
     "field_remanence": "field",
@@ -42,7 +39,7 @@ class Recorded:
 
 @dataclass(frozen=True)
 class Concealed:
-    """One effect as it was simulated; `unexplained` is what it alone leaves of the refitted base model (N)."""
+    """One effect as it was simulated; `unexplained` is what it alone leaves of the refitted base (N)."""
 
     effect: str
     law: str
@@ -77,65 +74,8 @@ class Campaign:
         return all(one.reached for one in self.effects)
 
 
-def rms(arrays: Sequence[Array]) -> float:
-    return float(np.sqrt(sum(float(a @ a) for a in arrays) / sum(len(a) for a in arrays)))
-
-
-class Bench:
-    """A device, its excitations and the fine grid on which it is simulated."""
-
-    def __init__(self, device: Device, excitations: Sequence[Excitation], fine: float) -> None:
-        self.device, self.excitations, self.fine = device, excitations, fine
-
-    def show(self, chain: Chain) -> list[Shown]:
-        count = len(self.excitations)
-        return [
-            shown(one, i, count, self.device, chain, max(2, int(np.ceil(self.fine / one.rate - 1e-9))))
-            for i, one in enumerate(self.excitations)
-        ]
-
-    def left(self, views: Sequence[Shown]) -> float:
-        return unexplained(self.device, [v.seen for v in views], [v.force for v in views])
-
-    def rig(self) -> Rig:
-        """Extremes of the recordings, of the bare device."""
-        views = self.show([])
-        x, v, force = (
-            np.concatenate(a)
-            for a in zip(*((s.seen.path.x, s.seen.path.v, s.force) for s in views), strict=True)
-        )
-        matrix = np.column_stack([x, v, np.ones_like(x)])
-        stiffness = float(np.linalg.lstsq(matrix, force, rcond=None)[0][0])
-        acceleration = max(float(np.max(np.abs(np.gradient(s.seen.path.v, s.seen.path.h)))) for s in views)
-        current = max(float(np.max(s.seen.current)) for s in views)
-        duration = max(one.duration for one in self.excitations)
-        extremes = (float(np.max(np.abs(a))) for a in (x, v))
-        stroke, speed = extremes
-        peak = float(np.max(np.abs(force)))
-        return Rig(
-            self.device.base, stroke, speed, acceleration, peak, stiffness, duration, len(views), current
-        )
-
-    def size_for(self, law: Law, wanted: float) -> tuple[float, float, bool]:
-        """Size, mismatch left, and whether it is the wanted one."""
-        if isinstance(law, Added):
-            bare, unit = self.show([]), self.show([(law, 1.0)])
-            seen, forces = [v.seen for v in bare], [v.force for v in bare]
-            waves = [b.force - a.force for a, b in zip(bare, unit, strict=True)]
-
-            def left(size: float) -> float:
-                return unexplained(
-                    self.device, seen, [f + size * w for f, w in zip(forces, waves, strict=True)]
-                )
-
-            found = solved(left, wanted, wanted / rms(waves) * 2, 2 * rms(forces) / rms(waves))
-        else:
-            found = solved(lambda size: self.left(self.show([(law, size)])), wanted, law.typical, law.largest)
-        return found.size, found.left, found.reached
-
-
 def make_campaign(
-    effect: str | None | Sequence[str],
+    effect: str | Sequence[str] | None,
     law: str | Sequence[str] = "textbook",
     base: str = "sinh",
     strength: float = 3.0,
@@ -170,11 +110,11 @@ def make_campaign(
     truths: list[Concealed] = []
     for name, form in zip(names, forms, strict=True):
         drew = drawn_law(name, form, effects, rig)
-        size, left, reached = bench.size_for(drew, strength * noise_rms)
-        chain.append((drew, size))
+        found = bench.size_for(drew, strength * noise_rms)
+        chain.append((drew, found.size))
         form = laws_of(name)[0] if form == "textbook" else form
-        parameters = {drew.size: size} | dict(drew.shape)
-        truths.append(Concealed(name, form, drew.size, drew.unit, parameters, left, reached))
+        parameters = {drew.size: found.size} | dict(drew.shape)
+        truths.append(Concealed(name, form, drew.size, drew.unit, parameters, found.left, found.reached))
     views = bench.show(chain)
     recordings = [
         _recorded(one, view, noise, noise_rms, velocity, displacement_noise, temperature, errors)
@@ -208,9 +148,9 @@ def _recorded(
     rng: np.random.Generator,
 ) -> Recorded:
     force = noisy(noise, view.force, noise_rms, excitation.rate, rng)
-    shaken = view.seen.path.x + displacement_noise * rng.normal(size=len(force))
+    shaken = view.seen.x + displacement_noise * rng.normal(size=len(force))
     degrees = 21 + 0.05 * rng.normal(size=len(force)) if temperature else None
-    shown_velocity = view.seen.path.v if velocity == "given" else None
+    shown_velocity = view.seen.v if velocity == "given" else None
     return Recorded(
         excitation.name, view.time, shaken, shown_velocity, force, view.seen.current, degrees, view.force
     )

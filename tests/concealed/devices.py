@@ -43,7 +43,7 @@ class Parts:
 
 @lru_cache(maxsize=64)
 def bouc_wen_flow(sigma: float, n: float, pinch: tuple[float, float, float] = (0.0, 0.0, 1.0)) -> Flow:
-    """The normalised Bouc-Wen law along a monotone motion; `pinch` is Baber and Noori's depth, place, width."""
+    """The normalised Bouc-Wen law along a monotone motion; `pinch` is Baber-Noori's depth, place, width."""
     depth, place, width = pinch
 
     def g(u: Array) -> Array:

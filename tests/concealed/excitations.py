@@ -87,7 +87,7 @@ def sum_of_sines(
 
 def odd_multisine(rng: np.random.Generator, highest: float, peak: float) -> Motion:
     """Odd harmonics of a quarter hertz with random phases; amplitudes fall with the frequency."""
-    frequencies = np.arange(1, round(highest / 0.25) + 1, 2) * 0.25
+    frequencies: Array = np.arange(1.0, round(highest / 0.25) + 1, 2) * 0.25
     phases = rng.uniform(0, TURN, len(frequencies))
     return sum_of_sines(frequencies, frequencies**-0.8, phases, peak, lambda t: rise(t, 0.0, 2 * SOFT))
 

@@ -11,7 +11,7 @@ from .kinematics import Array
 
 
 def _unsmeared(u: Array) -> Array:
-    """Input for a first-order hold whose interpolation error is removed up to the fourth order in the step."""
+    """Input for a first-order hold with its interpolation error removed up to the fourth order."""
     bend = np.zeros_like(u)
     bend[1:-1] = u[2:] - 2 * u[1:-1] + u[:-2]
     return u - bend / 12
@@ -30,7 +30,7 @@ def lag(u: Array, h: float, tau: float, start: float = 0.0) -> Array:
 
 
 def second_order(u: Array, h: float, frequency: float, damping: float) -> Array:
-    """The solution of y'' / w^2 + 2 d y' / w + y = u that rests at the first value of u, w = 2 pi frequency."""
+    """The solution of y'' / w^2 + 2 d y' / w + y = u at rest at the first u, w = 2 pi frequency."""
     w = 2 * np.pi * frequency
     a = np.array([[0.0, 1.0], [-(w**2), -2 * damping * w]])
     block = np.zeros((4, 4))

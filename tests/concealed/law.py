@@ -15,12 +15,11 @@ Response = Callable[[Track], Array]
 
 @dataclass(frozen=True)
 class Rig:
-    """What a law needs to know to draw sensible parameters: extremes of the recordings to come (mm, mm/s, N)."""
+    """What a law needs to know to draw sensible parameters: extremes of the recordings (mm, mm/s, N)."""
 
     base: str
     stroke: float
     speed: float
-    acceleration: float
     force: float
     stiffness: float
     duration: float
@@ -33,7 +32,7 @@ class Rig:
 
 @dataclass(frozen=True)
 class Law:
-    """`size` names the parameter that the strength fixes, `typical` a first guess of it, `shape` the others."""
+    """`size` names the parameter that the strength fixes, `typical` a first guess, `shape` the others."""
 
     size: str
     unit: str

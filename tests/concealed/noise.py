@@ -16,7 +16,8 @@ def _white(rng: np.random.Generator, n: int, rate: float) -> Array:
 
 
 def _student(rng: np.random.Generator, n: int, rate: float) -> Array:
-    return rng.standard_t(3, size=n) / np.sqrt(3)
+    out: Array = rng.standard_t(3, size=n) / np.sqrt(3)
+    return out
 
 
 def _correlated(pole: float) -> Kind:
@@ -52,9 +53,9 @@ def _narrow(rng: np.random.Generator, n: int, rate: float) -> Array:
 
 def _mains(rng: np.random.Generator, n: int, rate: float) -> Array:
     """Half of the power is a 50 Hz line."""
-    return np.sin(TURN * 50.0 * np.arange(n) / rate + rng.uniform(0, TURN)) + np.sqrt(0.5) * rng.normal(
-        size=n
-    )
+    line = np.sin(TURN * 50.0 * np.arange(n) / rate + rng.uniform(0, TURN))
+    out: Array = line + np.sqrt(0.5) * rng.normal(size=n)
+    return out
 
 
 KINDS: dict[str, Kind] = {

@@ -46,8 +46,9 @@ class Lab:
         self.record(f"sine_{f:.2f}Hz", motion, current)
 
 
-def rich(lab: Lab, current: Course = steady_current(1.0)) -> None:
-    """Sines of three frequencies with rising and falling amplitude and rests, multisine, sweep, earthquake."""
+def rich(lab: Lab) -> None:
+    """Sines of three frequencies with rising and falling amplitude, rests, multisine, sweep, earthquake."""
+    current = steady_current(1.0)
     lab.staircase(0.7, [2.0, 4.0, 8.0, 4.0, 2.0], current)
     lab.staircase(1.8, [2.0, 6.0, 0.0, 4.0, 2.0], current)
     lab.staircase(4.2, [1.5, 3.0, 2.0, 0.0, 1.5], current)

@@ -8,8 +8,7 @@ import numpy as np
 from .devices import Device
 from .excitations import Excitation
 from .kinematics import Array
-from .law import Added, Altered, Channel, Field, Gap, Late, Law, Scaled, Seen, Series
-from .paths import Path
+from .law import Added, Altered, Channel, Field, Gap, Law, Scaled, Seen, Series
 from .refit import Sampled
 from .track import Track
 
@@ -30,7 +29,7 @@ def track_of(excitation: Excitation, index: int, count: int, oversample: int, la
     """The fine grid of a recording, from the start of its run-in; `late` shifts the motion alone."""
     h = 1 / (excitation.rate * oversample)
     before = round(excitation.run_in * excitation.rate) * oversample
-    clock = (np.arange(before + (excitation.samples - 1) * oversample + 1) - before) * h
+    clock = (np.arange(before + (excitation.samples - 1) * oversample + 1, dtype=np.float64) - before) * h
     motion = excitation.motion(clock - late)
     pick = slice(before, None, oversample)
     return Track(clock, motion.x, motion.v, motion.a, excitation.current(clock), h, pick, index, count)
@@ -61,13 +60,9 @@ def device_force(track: Track, device: Device, chain: Chain) -> Array:
     return softened.total + extra
 
 
-def shown(
-    excitation: Excitation, index: int, count: int, device: Device, chain: Chain, oversample: int
-) -> Shown:
-    """The recording of one excitation, without noise."""
-    late = sum(law.act(size) for law, size in chain if isinstance(law, Late))
-    prescribed = track_of(excitation, index, count, oversample)
-    track = track_of(excitation, index, count, oversample, late) if late else prescribed
+def shown(prescribed: Track, late: Track, device: Device, chain: Chain) -> Shown:
+    """One recording without noise: the rig moves as prescribed, the device as `late` has it."""
+    track = late
     for law, size in chain:
         if isinstance(law, Series):
             track = law.act(track, lambda moved: device_force(moved, device, chain), size)
@@ -78,6 +73,7 @@ def shown(
             force = law.act(track, force, size)
         if isinstance(law, Seen):
             x, v = law.act(prescribed, size)
-    pick = track.pick
-    seen = Sampled(Path(x[pick], v[pick], 1 / excitation.rate), prescribed.current[pick])
-    return Shown(track.t[pick], seen, force[pick])
+    pick = prescribed.pick
+    path = prescribed.sampled if x is prescribed.x else prescribed.thinned(x, v)
+    seen = Sampled(path, prescribed.run_in, prescribed.current[pick])
+    return Shown(prescribed.t[pick], seen, force[pick])

@@ -8,7 +8,7 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Solved:
-    """Size and the mismatch it leaves; `reached` is false where the largest size leaves less than was wanted."""
+    """Size and the mismatch it leaves; `reached` is false where no size leaves what was wanted."""
 
     size: float
     left: float

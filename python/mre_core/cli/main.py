@@ -14,6 +14,7 @@ from .. import __version__
 from ..errors import MreError, one_line
 from .arguments import spread
 from .demo import demo
+from .diagnose import diagnose
 from .identify import identify
 from .simulate import simulate
 
@@ -27,11 +28,12 @@ def cli() -> None:
     Examples:
       mre-core demo
       mre-core identify test.csv --model sinh --out result
+      mre-core diagnose test.csv --base sinh --out result
       mre-core simulate result/model.json earthquake.csv --out predicted.csv
     """  # noqa: D301  # \b keeps the lines
 
 
-for command in (identify, simulate, demo):
+for command in (identify, diagnose, simulate, demo):
     cli.add_command(command)
 
 

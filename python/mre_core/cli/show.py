@@ -7,10 +7,14 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from ..diagnosis import Diagnosis
     from ..identify import Identification
 
 OnLevel = Callable[[int, int, float | None], None]
 OnProgress = Callable[[int, int, float], None]
+
+_MOST = 12
+"""Parameters of an effect that are shown; those of the measurement are several a recording."""
 
 
 def console() -> "Console":
@@ -49,6 +53,70 @@ def progress(iterations: int, *, quiet: bool) -> Iterator[tuple[OnLevel, OnProgr
 
     with bar:
         yield on_level, on_progress
+
+
+@contextmanager
+def spinner(what: str, *, quiet: bool) -> Iterator[None]:
+    """Show what goes on and for how long on standard error, if that is a terminal."""
+    from rich.console import Console
+    from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+
+    err = Console(stderr=True)
+    turning = Progress(
+        SpinnerColumn(),
+        TextColumn("{task.description}"),
+        TimeElapsedColumn(),
+        console=err,
+        transient=True,
+        disable=quiet or not err.is_terminal,
+    )
+    turning.add_task(what, total=None)
+    with turning:
+        yield
+
+
+def print_diagnosis(found: "Diagnosis") -> None:
+    """Verdict, effects with their parameters, where, and the fit."""
+    from rich.markup import escape
+    from rich.table import Table
+
+    from ..words import interval
+
+    out = console()
+    out.print(f"[bold]{found.verdict}[/bold]: {escape(str(found))}")
+    if found.effects:
+        table = Table(title="effects", title_justify="left")
+        for column in ("effect", "law", "parameter", "value", "95 % interval", "unit", "held-out rms / N"):
+            table.add_column(column, justify="right" if column == "value" else "left")
+        for effect in found.effects:
+            gain = f"{effect.held_out_rms_before:.4g} to {effect.held_out_rms_after:.4g}"
+            first = (effect.id, effect.law, gain)
+            for name, p in list(effect.parameters.items())[:_MOST]:
+                span = interval(p.low, p.high)
+                table.add_row(*first[:2], escape(name), f"{p.value:.5g}", span, p.unit, first[2])
+                first = ("", "", "")
+            if (more := len(effect.parameters) - _MOST) > 0:
+                table.add_row("", "", f"and {more} more")
+        out.print(table)
+        for effect in found.effects:
+            if effect.indistinguishable_from:
+                rest = ", ".join(effect.indistinguishable_from)
+                out.print(f"{effect.id}: these recordings cannot tell it from {rest}")
+            if effect.form == "approximate":
+                share = f"{100 * effect.lack_of_fit:.2g} %"
+                out.print(f"{effect.id}: its law is not exactly the catalogue's ({share} of the force left)")
+    for place in found.where[:3]:
+        out.print(f"where: {escape(place['what'])}")
+    if found.absorbed:
+        out.print(f"these recordings would hide: {', '.join(found.absorbed)}")
+    fit = found.fit
+    table = Table(title="rms error / N", title_justify="left")
+    for column in ("", "before", "after"):
+        table.add_column(column, justify="right" if column else "left")
+    table.add_row("trained on", f"{fit.train_rms_before:.4g}", f"{fit.train_rms_after:.4g}")
+    table.add_row("held out", f"{fit.held_out_rms_before:.4g}", f"{fit.held_out_rms_after:.4g}")
+    out.print(table)
+    out.print(f"noise {fit.noise_rms:.4g} N, false-alarm rate {found.false_alarm:g}, seed {found.seed}")
 
 
 def print_identification(found: "Identification") -> None:

@@ -87,7 +87,8 @@ def _stop(rng: np.random.Generator, rig: Rig, power: float, sides: tuple[float, 
     gap = rig.stroke * float(rng.uniform(0.7, 0.9))
 
     def act(track: Track, parts: Parts) -> Array:
-        return np.sum([side * np.maximum(side * track.x - gap, 0) ** power for side in sides], axis=0)
+        total: Array = np.sum([side * np.maximum(side * track.x - gap, 0) ** power for side in sides], axis=0)
+        return total
 
     return added("k_c", unit, {"gap": gap, "sides": float(sum(sides))}, act)
 

@@ -119,8 +119,8 @@ def energy(rng: np.random.Generator, rig: Rig) -> Law:
     life = rig.force * rig.speed * rig.duration * float(rng.uniform(0.005, 0.05))
 
     def act(track: Track, parts: Parts, size: float) -> Array:
-        power = np.maximum((parts.viscous + parts.hysteretic) * track.v, 0)
-        return 1 - size * -np.expm1(-_integral(power, track.h) / life)
+        spent = np.maximum.accumulate(_integral((parts.viscous + parts.hysteretic) * track.v, track.h))
+        return 1 - size * -np.expm1(-spent / life)
 
     return softening({"energy": life}, act)
 
@@ -144,7 +144,7 @@ def _jump(rng: np.random.Generator, rig: Rig, ramp: float, struck: int, whole: b
         if track.index != struck:
             return np.full_like(track.x, 1 - size * (track.index > struck))
         if ramp == 0:
-            return 1 - size * (track.t >= moment)
+            return np.where(track.t >= moment, 1 - size, 1.0)
         return 1 - size * np.clip((track.t - moment) / ramp, 0, 1)
 
     return softening({"moment": moment, "recording": float(struck)}, act, whole=whole)

@@ -48,7 +48,8 @@ def preisach(rng: np.random.Generator, rig: Rig) -> Law:
     def act(track: Track, size: float) -> Array:
         rate = np.gradient(track.current, track.h)
         slow = played(Path(track.current, rate, track.h), radius) + np.minimum(radius, track.current[:, None])
-        return (1 - size) * track.current + size * slow.mean(axis=1)
+        felt: Array = (1 - size) * track.current + size * slow.mean(axis=1)
+        return felt
 
     return Field("share", "1", 0.1, 0.95, {}, act)
 

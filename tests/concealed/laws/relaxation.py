@@ -83,7 +83,8 @@ def many_branches(rng: np.random.Generator, rig: Rig) -> Law:
     taus = np.geomspace(2e-3, 50.0, 14)
 
     def act(track: Track, parts: Parts) -> Array:
-        return np.sum([tau**-order * lag(track.v, track.h, tau) for tau in taus], axis=0)
+        total: Array = np.sum([tau**-order * lag(track.v, track.h, tau) for tau in taus], axis=0)
+        return total
 
     return added("k", "N/mm", {"alpha": order}, act)
 
@@ -106,7 +107,8 @@ def log_kernel(rng: np.random.Generator, rig: Rig) -> Law:
 
     def act(track: Track, parts: Parts) -> Array:
         rate = np.gradient(parts.elastic, track.h, edge_order=2)
-        return np.sum([lag(rate, track.h, tau) for tau in taus], axis=0) / len(taus)
+        total: Array = np.sum([lag(rate, track.h, tau) for tau in taus], axis=0)
+        return total / len(taus)
 
     return added("share", "1", {}, act)
 
@@ -116,6 +118,7 @@ def slow_branches(rng: np.random.Generator, rig: Rig) -> Law:
     taus = [rig.log(rng, 5, 15), rig.log(rng, 30, 80), rig.log(rng, 150, 400)]
 
     def act(track: Track, parts: Parts) -> Array:
-        return np.sum([lag(track.v, track.h, tau) for tau in taus], axis=0)
+        total: Array = np.sum([lag(track.v, track.h, tau) for tau in taus], axis=0)
+        return total
 
     return added("k_each", "N/mm", {f"tau_{i}": tau for i, tau in enumerate(taus)}, act)

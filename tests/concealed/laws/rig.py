@@ -16,8 +16,8 @@ GiveWay = Callable[[Array, Array, float], Array]
 def _solved(track: Track, response: Response, stiffness: float, give: GiveWay) -> Track:
     """Motion x_d with x_d + give(F(x_d)) = x by fixed points on the part that a stiff linear device leaves.
 
-    A linear device c v + k x on a spring s obeys c e' + (k + s) e = c v + k x for the set e; the rest of the force
-    is carried over from one round to the next.
+    A linear device c v + k x on a spring s obeys c e' + (k + s) e = c v + k x for the set e; the rest of
+    the force is carried over from one round to the next.
     """
     moved = track
     set_of = np.zeros_like(track.x)

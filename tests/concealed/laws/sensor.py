@@ -106,11 +106,11 @@ def one_sided(rng: np.random.Generator, rig: Rig) -> Law:
 
 @law("force_clipping", "soft_knee")
 def soft_knee(rng: np.random.Generator, rig: Rig) -> Law:
-    """Linear up to four fifths of the level, then bent over into it."""
+    """Linear up to a knee, then bent over into a level a quarter higher."""
 
     def act(track: Track, force: Array, size: float) -> Array:
-        level = rig.force * (1 - size)
-        knee, room = 0.8 * level, 0.2 * level
+        knee = rig.force * (1 - size)
+        room = 0.25 * knee
         above = np.maximum(np.abs(force) - knee, 0)
         return np.sign(force) * (np.minimum(np.abs(force), knee) + room * np.tanh(above / room))
 

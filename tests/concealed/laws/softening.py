@@ -12,7 +12,7 @@ from ..track import Track
 
 def half_range(track: Track, window: float) -> Array:
     """Half the range of the displacement over the last `window` seconds."""
-    size = max(3, round(window / track.h) | 1)
+    size = 2 * max(1, round(window / track.h / 2)) + 1
     before = np.concatenate([np.full(size, track.x[0]), track.x])
     ranged = maximum_filter1d(before, size, origin=(size - 1) // 2)
     ranged = ranged - minimum_filter1d(before, size, origin=(size - 1) // 2)
@@ -47,7 +47,7 @@ def kraus(rng: np.random.Generator, rig: Rig) -> Law:
 @law("payne_softening", "kraus_window")
 def kraus_window(rng: np.random.Generator, rig: Rig) -> Law:
     m, place = float(rng.uniform(0.5, 0.8)), rig.stroke * float(rng.uniform(0.15, 0.5))
-    window = float(rng.uniform(1.0, 2.0))
+    window = round(float(rng.uniform(1.0, 2.0)), 1)
 
     def act(track: Track, parts: Parts, size: float) -> Array:
         return 1 - size * _kraus(half_range(track, window), place, m)
@@ -99,7 +99,7 @@ def kinetic(rng: np.random.Generator, rig: Rig) -> Law:
 
 def heated(track: Track, parts: Parts, tau: float, scale: float) -> Array:
     """Temperature rise of a lump that the dissipated power heats, in units of `scale` (N mm/s)."""
-    power = np.maximum((parts.viscous + parts.hysteretic) * track.v, 0)
+    power = (parts.viscous + parts.hysteretic) * track.v
     return lag(power, track.h, tau) / (tau * scale)
 
 
@@ -109,22 +109,23 @@ def _scale(rig: Rig) -> float:
 
 @law("thermal_softening", "lump")
 def lump(rng: np.random.Generator, rig: Rig) -> Law:
-    tau, scale = rig.log(rng, 5, 40), _scale(rig)
-
-    def act(track: Track, parts: Parts, size: float) -> Array:
-        return 1 / (1 + size * heated(track, parts, tau, scale))
-
-    return softening({"tau": tau, "power_scale": scale}, act, largest=30.0)
-
-
-@law("thermal_softening", "linear")
-def linear(rng: np.random.Generator, rig: Rig) -> Law:
+    """One temperature; the elastic force falls in proportion to it."""
     tau, scale = rig.log(rng, 5, 40), _scale(rig)
 
     def act(track: Track, parts: Parts, size: float) -> Array:
         return np.maximum(1 - size * heated(track, parts, tau, scale), 0.1)
 
     return softening({"tau": tau, "power_scale": scale}, act, largest=10.0)
+
+
+@law("thermal_softening", "hyperbolic")
+def hyperbolic(rng: np.random.Generator, rig: Rig) -> Law:
+    tau, scale = rig.log(rng, 5, 40), _scale(rig)
+
+    def act(track: Track, parts: Parts, size: float) -> Array:
+        return 1 / (1 + size * heated(track, parts, tau, scale))
+
+    return softening({"tau": tau, "power_scale": scale}, act, largest=30.0)
 
 
 @law("thermal_softening", "whole")

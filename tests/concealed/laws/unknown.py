@@ -15,7 +15,8 @@ def ripple(rng: np.random.Generator, rig: Rig) -> Law:
     pitch, phase = rig.stroke * float(rng.uniform(0.12, 0.3)), float(rng.uniform(0, TURN))
 
     def act(track: Track, parts: Parts) -> Array:
-        return np.sin(TURN * track.x / pitch + phase) - np.sin(phase)
+        wave: Array = np.sin(TURN * track.x / pitch + phase) - np.sin(phase)
+        return wave
 
     return added("F", "N", {"pitch": pitch, "phase": phase}, act)
 
@@ -28,7 +29,8 @@ def bump(rng: np.random.Generator, rig: Rig) -> Law:
 
     def act(track: Track, parts: Parts) -> Array:
         ridge = side * np.exp(-(((side * track.x - place) / width) ** 2))
-        return ridge * (1 + np.tanh(side * track.v / 1.0)) / 2
+        felt: Array = ridge * (1 + np.tanh(side * track.v / 1.0)) / 2
+        return felt
 
     return added("F", "N", {"place": side * place, "width": width, "side": side}, act)
 

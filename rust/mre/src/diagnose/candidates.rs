@@ -18,6 +18,8 @@ const FEW_STEPS: usize = 6;
 const PASSES: usize = 4;
 /// Candidates closer than this in the criterion fit equally well.
 const TIE: f64 = 4.0;
+/// Laws of one effect that are fitted jointly.
+const LAWS_EACH: usize = 2;
 /// A candidate whose score is below this share of the best is not refitted.
 const PROMISING: f64 = 0.15;
 
@@ -95,14 +97,21 @@ pub(super) fn by_effect(scores: &[Score]) -> Vec<(&'static str, f64)> {
     found.into_iter().map(|(id, p, count)| (id, (p * count as f64).min(1.0))).collect()
 }
 
-/// The laws that are worth a joint fit, strongest first.
+/// The laws that are worth a joint fit, strongest first: a few of each effect, so that the many laws of one do
+/// not crowd out the others.
 fn promising(scores: &[Score], most: usize) -> Vec<&Score> {
     let mut sorted: Vec<&Score> = scores.iter().filter(|s| s.gain > 0.0).collect();
     sorted.sort_by(|a, b| b.gain.total_cmp(&a.gain));
     let best = sorted.first().map_or(0.0, |s| s.gain);
-    sorted.retain(|s| s.gain >= PROMISING * best);
-    sorted.truncate(most);
-    sorted
+    let mut kept: Vec<&Score> = Vec::new();
+    for score in sorted {
+        let id = score.effect.about().effect;
+        let alike = kept.iter().filter(|k| k.effect.about().effect == id).count();
+        if alike < LAWS_EACH && score.gain >= PROMISING * best && kept.len() < most {
+            kept.push(score);
+        }
+    }
+    kept
 }
 
 /// Joint fit of a model with one more law, from the law's strongest start.

@@ -10,6 +10,7 @@ mod begin;
 mod bounded;
 mod candidates;
 mod distribution;
+mod drift;
 mod features;
 mod hum;
 mod intervals;

@@ -2,7 +2,8 @@
 //!
 //! Up to 0.3 s long, which keeps tests on white, strongly correlated, 1/f and narrow-band noise near their
 //! level where short or Yule-Walker ones do not; shorter where Akaike's criterion finds no use for the length.
-//! A hum of the power mains is no noise: it is an effect of the measurement, and taken off before.
+//! A hum of the power mains is no noise, nor is a drift beyond what the noise's own slow part extends to: they
+//! are effects of the measurement, and taken off before.
 //!
 //! Recordings of one sampling rate share it, each with its own size, unless they plainly differ: what is
 //! estimated from more samples is estimated better, and tests far out in the tail need that.
@@ -10,6 +11,7 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
+use super::drift::without_drift;
 use super::hum::without_hum;
 use crate::kernel::filter::{dot, prediction_error};
 
@@ -41,6 +43,7 @@ impl Noise {
     /// Noise of residuals in N; `steps` are the time steps in s, `freedom` the parameters that were fitted
     /// to all residuals together.
     pub fn of(residuals: &[Vec<f64>], steps: &[f64], freedom: usize) -> Self {
+        let residuals = &without_drift(residuals)[..];
         let products: Vec<Products> = residuals
             .par_iter()
             .zip(steps)

@@ -4,7 +4,7 @@
 //! |---|---|---|---|
 //! | `F_c` | friction force | N | >= 0 |
 //! | `z_y` | pre-sliding displacement (Dahl) | mm | 0.01 % to 5 % of the largest stroke |
-//! | `v_s` | velocity over which the sign is smoothed | mm/s | 0.2 % to 5 % of the largest speed |
+//! | `v_s` | velocity over which the sign is smoothed | mm/s | 0.001 % to 5 % of the largest speed |
 //!
 //! Dahl's element is integrated exactly in the displacement.
 //! Reference: Dahl, Aerospace Corporation TOR-0158(3107-18)-1, 1968.
@@ -49,7 +49,7 @@ impl Effect for Coulomb {
                 vec![order_within("z_y", "mm", 1e-4 * sizes.displacement, 0.05 * sizes.displacement)]
             }
             Self::Smoothed => {
-                vec![order_within("v_s", "mm/s", 0.002 * sizes.velocity, 0.05 * sizes.velocity)]
+                vec![order_within("v_s", "mm/s", 1e-5 * sizes.velocity, 0.05 * sizes.velocity)]
             }
         }
     }
@@ -57,7 +57,7 @@ impl Effect for Coulomb {
     fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
         let (shares, size): (&[f64], f64) = match self {
             Self::Dahl => (&[0.001, 0.004, 0.012, 0.035], sizes.displacement),
-            Self::Smoothed => (&[0.003, 0.01, 0.035], sizes.velocity),
+            Self::Smoothed => (&[1e-4, 0.003, 0.01, 0.035], sizes.velocity),
         };
         shares.iter().map(|share| vec![share * size]).collect()
     }

@@ -19,7 +19,7 @@ use crate::parameter::Parameter;
 const PRESLIDING: f64 = 1e-3;
 
 /// Speed at which a friction that rests without force has three quarters of it, share of the largest speed.
-const REST: f64 = 2e-3;
+const REST: f64 = 1e-4;
 
 /// A law of the excess, with or without force at rest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,0 +1,106 @@
+"""``mre-core diagnose``."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from .arguments import WHOLE, common_options, load_all, read_interval
+
+if TYPE_CHECKING:
+    from ..diagnosis import Diagnosis, History
+    from ..output import Stage
+
+
+@click.command()
+@click.argument("recordings", nargs=-1, required=True)
+@click.option(
+    "--base",
+    required=True,
+    metavar="MODEL",
+    help="kelvin_voigt, sinh, bouc_wen, a model.json, or simulated (a column of that role).",
+)
+@click.option("--fixed", is_flag=True, help="Keep the parameters of a model.json as they are.")
+@click.option("--out", type=click.Path(path_type=Path), metavar="DIR", help="Folder for the results.")
+@click.option(
+    "--false-alarm",
+    type=float,
+    default=0.01,
+    show_default=True,
+    help="Chance of naming something where nothing is missing.",
+)
+@click.option("--seed", type=WHOLE, help="Same seed, same result.")
+@click.option("--cut", metavar="START:STOP", help="Keep this part of every recording, in s.")
+@click.option("--exclude", metavar="PARTS", help="start_transient, stop_transient or both, with a comma.")
+@click.option("--threads", type=WHOLE, help="Threads; all cores by default.")
+@click.option("--quiet", is_flag=True, help="No progress, no tables.")
+@common_options
+def diagnose(
+    recordings: tuple[str, ...],
+    base: str,
+    out: Path | None,
+    cut: str | None,
+    exclude: str | None,
+    quiet: bool,
+    mapping: tuple[str, ...],
+    conditions: tuple[str, ...],
+    name_pattern: str | None,
+    **options: Any,
+) -> None:
+    """Say what the model MODEL leaves out of RECORDINGS (CSV files): what, where, how much.
+
+    \b
+    Examples:
+      mre-core diagnose *.csv --base sinh --out result
+      mre-core diagnose *.csv --base model.json --fixed --out result
+      mre-core diagnose *.csv --base simulated --map 'simulated=fem_kN[kN]' --out result
+    """  # noqa: D301  # \b keeps the lines
+    from contextlib import nullcontext
+
+    from ..diagnose import diagnose as run
+    from ..output import Stage, staged
+    from .show import print_diagnosis, spinner
+
+    loaded = load_all(recordings, mapping, conditions, name_pattern)
+    if cut is not None:
+        start, stop = read_interval(cut)
+        loaded = [recording.cut(start, stop) for recording in loaded]
+    if exclude is not None:
+        parts = [part.strip() for part in exclude.split(",")]
+        loaded = [recording.exclude(*parts) for recording in loaded]
+    place = staged(out) if out is not None else nullcontext()
+    with place as stage:
+        with spinner("diagnosing", quiet=quiet):
+            found = run(loaded, base, **options)
+        if isinstance(stage, Stage):
+            _write(stage, found)
+    if not quiet:
+        print_diagnosis(found)
+
+
+def _write(stage: "Stage", found: "Diagnosis") -> None:
+    """Verdict, both models, forces by sample, and the page for a person."""
+    from ..report import report
+
+    stage.write_json("diagnosis.json", found.to_dict())
+    stage.write_json("base_model.json", found.base_model.to_dict())
+    stage.write_json("model.json", found.model.to_dict())
+    _write_residuals(stage.path("residuals.csv"), found.histories)
+    stage.path("report.html").write_text(report(found), encoding="utf-8")
+
+
+def _write_residuals(path: Path, histories: "tuple[History, ...]") -> None:
+    import csv
+
+    with path.open("w", encoding="utf-8", newline="") as file:
+        rows = csv.writer(file, lineterminator="\n")
+        rows.writerow(
+            [
+                *("recording", "time_s", "measured_N", "base_N", "final_N"),
+                *("base_residual_N", "final_residual_N"),
+            ]
+        )
+        for h in histories:
+            columns = (h.time, h.measured, h.base, h.final, h.measured - h.base, h.measured - h.final)
+            for row in zip(*(column.tolist() for column in columns), strict=True):
+                rows.writerow([h.recording, *row])

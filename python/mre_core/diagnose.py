@@ -1,0 +1,158 @@
+"""From recordings and a base model to what the model leaves out."""
+
+import json
+import os
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from . import _core
+from ._core import Recording
+from .diagnosis import Diagnosis, History
+from .errors import InputError
+from .findings import (
+    comparison,
+    effect_of,
+    hidden_effects,
+    labels,
+    levels_of,
+    missing_effects,
+    place_of,
+    rms_of_force,
+)
+from .grouping import group_by_current
+from .minimise import draw_seed
+from .model import SIMULATED, Level, Model, simulate
+from .suitable import check_recordings
+from .tested import largest_motion
+
+
+def diagnose(
+    recordings: Recording | Sequence[Recording],
+    base: str | os.PathLike[str] | Model = "sinh",
+    *,
+    seed: int | None = None,
+    false_alarm: float = 0.01,
+    fixed: bool = False,
+    threads: int | None = None,
+) -> Diagnosis:
+    """Say whether a base model leaves out physics, where, which, and whether that helps on held-out data.
+
+    Recordings with the same constant current share the parameters of the base model, and effects are
+    shared by all.
+
+    Parameters
+    ----------
+    recordings : Recording or sequence of them
+        With force, evenly sampled.
+    base : str, path or Model
+        ``"kelvin_voigt"``, ``"sinh"``, ``"bouc_wen"``; a model or its file, whose structure is the base; or
+        ``"simulated"``, where the recordings carry the force of a user's own simulation.
+    seed : int, optional
+        Same seed, same result. Drawn and reported where not given.
+    false_alarm : float
+        Chance that something is named although nothing is missing, in (0, 0.5).
+    fixed : bool
+        Keep the parameters of a given model as they are, and diagnose exactly that model.
+    threads : int, optional
+        Threads; all cores by default. The result does not depend on them.
+
+    Returns
+    -------
+    Diagnosis
+        The verdict, the effects, where the mismatch is, and the models before and after.
+
+    Raises
+    ------
+    MreError
+        The recordings, the base or a setting cannot be used (a ValueError).
+    """
+    everything = [recordings] if isinstance(recordings, Recording) else list(recordings)
+    start = _read(base)
+    name = start.name if isinstance(start, Model) else start
+    given = start.levels if isinstance(start, Model) and fixed else None
+    if isinstance(false_alarm, bool) or not 0 < false_alarm < 0.5:
+        raise InputError(f"false_alarm is {false_alarm!r}", wanted="a number above 0 and below 0.5")
+    seed = draw_seed(seed)
+    groups = group_by_current(everything)
+    places = {id(recording): place for place, recording in enumerate(everything)}
+    if len(places) < len(everything):
+        raise InputError("a recording is given twice", wanted="each recording once")
+    symbols = [] if name == SIMULATED else [symbol for symbol, _ in _core.parameters(name)]
+    check_recordings(everything, 0 if fixed else len(symbols) * len(groups))
+    text, before, after = _core.diagnose_recordings(
+        everything,
+        name,
+        [[places[id(member)] for member in members] for _, members in groups],
+        false_alarm=float(false_alarm),
+        seed=seed,
+        threads=threads,
+        **_base(start, everything, fixed=fixed),
+    )
+    raw = json.loads(text)
+    currents = [current for current, _ in groups]
+
+    def model(levels: Any, effects: Any) -> Model:
+        found = given or levels_of(symbols, currents, levels)
+        sizes = raw["sizes"] if effects else {}
+        return Model(name, found, largest_motion(everything), tuple(map(effect_of, effects)), sizes)
+
+    base_model = model(raw["base_levels"], raw["base_effects"])
+    if given and isinstance(start, Model):
+        base_model = start
+    final, last = base_model, before
+    if raw["effects"]:
+        in_order = sorted(raw["effects"], key=lambda effect: int(effect["place"]))
+        final, last = model(raw["final_levels"], [*raw["final_base_effects"], *in_order]), after
+    names = labels(everything)
+    return Diagnosis(
+        base=name,
+        verdict=raw["verdict"],
+        effects=missing_effects(raw, names, rms_of_force(everything)),
+        where=tuple(place_of(place, names) for place in raw["where"]),
+        fit=comparison(raw),
+        absorbed_detail=hidden_effects(raw),
+        next_test=None,
+        p_values={"base": raw["p_base"], "rest": raw["p_rest"], "effects": dict(raw["candidates"])},
+        base_model=base_model,
+        model=final,
+        recordings=tuple(names),
+        false_alarm=float(false_alarm),
+        fixed=fixed,
+        seed=seed,
+        histories=tuple(
+            History(label, r.time, r.displacement, np.asarray(r.force), first, second)
+            for label, r, first, second in zip(names, everything, before, last, strict=True)
+        ),
+    )
+
+
+def _read(base: str | os.PathLike[str] | Model) -> str | Model:
+    """Take a base as it is, or from its file."""
+    if isinstance(base, Model):
+        return base
+    if isinstance(base, str) and not base.endswith(".json"):
+        if base not in (known := [*_core.models(), SIMULATED]):
+            raise InputError(
+                f"the base is '{base}'", wanted=f"{', '.join(known)}, or the path of a model.json"
+            )
+        return base
+    return Model.load(base)
+
+
+def _base(start: str | Model, recordings: Sequence[Recording], *, fixed: bool) -> dict[str, Any]:
+    """Tell what the core needs of the base beside its name."""
+    effects = start.effects if isinstance(start, Model) else ()
+    simulated = (start.name if isinstance(start, Model) else start) == SIMULATED
+    if effects and (fixed or simulated):
+        raise InputError("the base is kept as it is and has effects", wanted="a model without effects")
+    if simulated:
+        return {"given": [simulate(Model(SIMULATED, (Level(None, {}),)), r) for r in recordings]}
+    if fixed:
+        if not isinstance(start, Model):
+            raise InputError(f"the base is '{start}' and fixed", wanted="a model.json, which has parameters")
+        for recording in recordings:
+            simulate(start, recording)  # says what it cannot follow
+        return {"held": start.given()}
+    return {"base_effects": [(e.id, e.law, e.given()[3]) for e in effects]}

@@ -1,0 +1,137 @@
+"""What a diagnosis says: verdict, effects, where, and the models before and after."""
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import words
+from ._core import __version__
+from .model import Model
+
+SCHEMA = "mre-core/diagnosis/1"
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A fitted parameter with its 95 % interval; None at an end that the recordings do not determine."""
+
+    value: float
+    low: float | None
+    high: float | None
+    unit: str
+
+
+@dataclass(frozen=True)
+class MissingEffect:
+    """An effect that the base model leaves out."""
+
+    id: str
+    law: str
+    statement: str
+    """What was left out, where it shows, and how much it improves, in one sentence."""
+    equation: str
+    reference: str
+    parameters: Mapping[str, Estimate]
+    p_value: float
+    form: str
+    """``"exact"``, or ``"approximate"`` where the law is not exactly that of the catalogue."""
+    lack_of_fit: float
+    """What an approximate form leaves, as a share of the force's rms."""
+    indistinguishable_from: tuple[str, ...]
+    held_out_rms_before: float
+    """Rms error in N on held-out data without this effect, the other effects in place."""
+    held_out_rms_after: float
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Rms errors in N of the base model and the final one, trained without the held-out data."""
+
+    train_rms_before: float
+    train_rms_after: float
+    held_out_rms_before: float
+    held_out_rms_after: float
+    noise_rms: float
+    unit: str = "N"
+
+
+@dataclass(frozen=True)
+class History:
+    """Forces in N over one recording, shape (n,) each."""
+
+    recording: str
+    time: NDArray[np.float64]
+    """s."""
+    displacement: NDArray[np.float64]
+    """mm."""
+    measured: NDArray[np.float64]
+    base: NDArray[np.float64]
+    """Of the base model, fitted alone."""
+    final: NDArray[np.float64]
+    """Of the base model and the effects, fitted together, as the measurement shows it."""
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """A verdict on a base model, and the models before and after.
+
+    ``str()`` gives the verdict in one sentence; `to_dict` the content of ``diagnosis.json``.
+    """
+
+    base: str
+    verdict: str
+    """``"adequate"``, ``"missing_physics"``, ``"partly_explained"`` or ``"unexplained"``."""
+    effects: tuple[MissingEffect, ...]
+    """By how much each improves the fit of held-out data."""
+    where: tuple[Mapping[str, Any], ...]
+    """Places of the mismatch of the base model, strongest first."""
+    fit: Comparison
+    absorbed_detail: tuple[Mapping[str, Any], ...]
+    """Effects that these recordings would hide, up to which size, and why."""
+    next_test: Mapping[str, Any] | None
+    p_values: Mapping[str, Any]
+    """Of the base model's mismatch, of the final model's, and of each effect beside the final model."""
+    base_model: Model
+    model: Model
+    """Base model and effects, fitted together on everything."""
+    recordings: tuple[str, ...]
+    false_alarm: float
+    fixed: bool
+    seed: int
+    histories: tuple[History, ...] = field(compare=False, repr=False)
+
+    @property
+    def absorbed(self) -> tuple[str, ...]:
+        """Ids of effects that these recordings would hide."""
+        return tuple(detail["id"] for detail in self.absorbed_detail)
+
+    def __str__(self) -> str:
+        return words.verdict(self.verdict, self.base, [e.id for e in self.effects], asdict(self.fit))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Content of ``diagnosis.json``."""
+        return {
+            "schema": SCHEMA,
+            "version": __version__,
+            "base": self.base,
+            "fixed": self.fixed,
+            "verdict": self.verdict,
+            "statement": str(self),
+            "effects": [
+                asdict(effect) | {"indistinguishable_from": list(effect.indistinguishable_from)}
+                for effect in self.effects
+            ],
+            "where": [dict(place) for place in self.where],
+            "fit": asdict(self.fit),
+            "absorbed": list(self.absorbed),
+            "absorbed_detail": [dict(detail) for detail in self.absorbed_detail],
+            "next_test": None if self.next_test is None else dict(self.next_test),
+            "p_values": dict(self.p_values),
+            "recordings": list(self.recordings),
+            "false_alarm": self.false_alarm,
+            "seed": self.seed,
+            "interrupted": False,
+        }

@@ -1,0 +1,130 @@
+"""What the core says of a diagnosis, as the objects that a person gets."""
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from . import _core, words
+from ._core import Recording
+from .diagnosis import Comparison, Estimate, MissingEffect
+from .effects import Effect
+from .model import Level
+
+Raw = Mapping[str, Any]
+"""An object of the core's JSON."""
+
+
+def labels(recordings: Sequence[Recording]) -> list[str]:
+    """Names of recordings, made different from each other."""
+    names = [r.name or f"recording {i}" for i, r in enumerate(recordings, 1)]
+    count = Counter(names)
+    return [name if count[name] == 1 else f"{name} ({i})" for i, name in enumerate(names, 1)]
+
+
+def rms_of_force(recordings: Sequence[Recording]) -> float:
+    """Root mean square of the measured force in N over all recordings."""
+    return float(np.sqrt(np.mean(np.concatenate([np.asarray(r.force) for r in recordings]) ** 2)))
+
+
+def levels_of(
+    symbols: Sequence[str], currents: Sequence[float | None], groups: Sequence[Raw]
+) -> tuple[Level, ...]:
+    """Levels of the base model; a level that names no current has that of its group."""
+    if not groups:
+        return (Level(None, {}),)
+    return tuple(
+        Level(
+            current if level["current"] is None else level["current"],
+            dict(zip(symbols, level["values"], strict=True)),
+        )
+        for current, group in zip(currents, groups, strict=True)
+        for level in group["levels"]
+    )
+
+
+def effect_of(found: Raw) -> Effect:
+    """Make an effect of the device, without what belongs to single recordings."""
+    own = [] if found["of_the_measurement"] else found["coefficients"]
+    return Effect(found["id"], found["law"], {p["name"]: p["value"] for p in [*own, *found["shapes"]]})
+
+
+def missing_effects(raw: Raw, names: Sequence[str], force: float) -> tuple[MissingEffect, ...]:
+    """Effects found, the most useful first. An inexact form is told of that one."""
+    found = []
+    for rank, effect in enumerate(raw["effects"]):
+        inexact = rank == 0 and raw["approximate"]
+        shows = words.place(place_of(raw["where"][0], names)) if rank == 0 and raw["where"] else None
+        found.append(
+            MissingEffect(
+                id=effect["id"],
+                law=effect["law"],
+                statement=words.effect(effect["plain"], effect, shows),
+                equation=effect["equation"],
+                reference=effect["reference"],
+                parameters=_estimates(effect, names),
+                p_value=effect["p_value"],
+                form="approximate" if inexact else "exact",
+                lack_of_fit=raw["lack_of_fit_N"] / force if inexact else 0.0,
+                indistinguishable_from=tuple(effect["indistinguishable_from"]),
+                held_out_rms_before=effect["held_out_rms_before"],
+                held_out_rms_after=effect["held_out_rms_after"],
+            )
+        )
+    return tuple(found)
+
+
+def _estimates(effect: Raw, names: Sequence[str]) -> dict[str, Estimate]:
+    """Parameters by name; where each recording has its own, the recording stands in brackets."""
+    coefficients = effect["coefficients"]
+    if effect["of_the_measurement"] and coefficients:
+        each = len(coefficients) // len(names)
+        keys = [f"{p['name']}({names[i // each]})" for i, p in enumerate(coefficients)]
+    else:
+        keys = [p["name"] for p in coefficients]
+    keys += [p["name"] for p in effect["shapes"]]
+    rows = [*coefficients, *effect["shapes"]]
+    return {
+        key: Estimate(p["value"], p["low"], p["high"], p["unit"]) for key, p in zip(keys, rows, strict=True)
+    }
+
+
+def place_of(raw: Raw, names: Sequence[str]) -> dict[str, Any]:
+    """Describe a place of the mismatch, with the name of its recording and plain words."""
+    found = dict(raw)
+    if "recording" in found:
+        found["recording"] = names[found["recording"]]
+    if found["kind"] == "time":
+        found["unit"] = "s"
+    return found | {"what": words.mismatch(found)}
+
+
+def comparison(raw: Raw) -> Comparison:
+    """Rms errors before and after."""
+    before, after = raw["before"], raw["after"]
+    return Comparison(
+        train_rms_before=before["train_rms"],
+        train_rms_after=after["train_rms"],
+        held_out_rms_before=before["held_out_rms"],
+        held_out_rms_after=after["held_out_rms"],
+        noise_rms=raw["noise_rms"],
+    )
+
+
+def hidden_effects(raw: Raw) -> tuple[dict[str, Any], ...]:
+    """Effects that the recordings would hide."""
+    limits = {row["id"]: row["limit"] for row in reversed(_core.catalogue())}
+    named = {effect["id"] for effect in raw["effects"]}
+    return tuple(
+        {
+            "id": detail["id"],
+            "parameter": detail["parameter"],
+            "up_to": detail["up_to"],
+            "unit": detail["unit"],
+            "whatever_its_size": detail["whatever_its_size"],
+            "why": words.hidden(detail, limits[detail["id"]]),
+        }
+        for detail in raw["absorbed"]
+        if detail["id"] not in named
+    )

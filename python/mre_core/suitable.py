@@ -1,0 +1,110 @@
+"""Are recordings fit for a diagnosis? What is wrong is said, not guessed."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._core import Recording
+from .errors import InputError
+
+_AGAINST = -0.5
+"""Correlation of force and displacement below which their signs cannot agree."""
+_GIVES = -0.1
+"""Correlation of force and rate of displacement below which a device gives out energy, one at least of several
+recordings that all do."""
+_JUMPS = 1.5
+"""Mean squared step over the variance: 2 for noise, small for motion."""
+_LEAST = 20
+"""Samples that the noise is told by."""
+_EACH = 5
+"""Samples for each parameter."""
+_SWING = 0.1
+"""Share of the stroke that a reversal has to exceed."""
+
+
+def check_recordings(recordings: Sequence[Recording], parameters: int) -> None:
+    """Refuse recordings that cannot be diagnosed.
+
+    Parameters
+    ----------
+    recordings : sequence of Recording
+        All that share the `parameters` parameters of a base model, or more.
+    parameters : int
+        Number of parameters that are fitted to them.
+
+    Raises
+    ------
+    InputError
+        A recording without force, with a force that never changes, with signs that cannot agree or columns
+        that are swapped; no full cycle of motion in any; too few samples.
+    """
+    energies = []
+    for recording in recordings:
+        x, force = _scored(recording)
+        if np.ptp(force) == 0:
+            raise _wrong(recording, f"the force is {force[0]:.6g} N throughout", "a force that changes")
+        if np.mean(np.diff(x) ** 2) > _JUMPS * np.var(x):
+            raise _wrong(recording, "the displacement jumps like noise from sample to sample", "a motion")
+        against = float(np.corrcoef(x, force)[0, 1])
+        energies.append(_energy(x, force))
+        if against < _AGAINST and energies[-1] < 0:
+            raise _wrong(
+                recording,
+                f"force and displacement have opposite signs (correlation {against:.2f})",
+                "a force that rises with the displacement: turn the sign of one of them",
+            )
+    if max(energies) < 0 and min(energies) < _GIVES:
+        raise _wrong(
+            recordings[int(np.argmin(energies))],
+            f"the device would give out energy in every cycle (force and velocity correlate by"
+            f" {min(energies):.2f})",
+            "force and displacement in their own columns, not swapped, with agreeing signs and times",
+        )
+    if not any(_has_cycle(_scored(recording)[0]) for recording in recordings):
+        raise _wrong(recordings[0], "there is less than one cycle of motion", "at least one full cycle")
+    samples = sum(recording.scored[1] - recording.scored[0] for recording in recordings)
+    if samples < (least := max(_LEAST, _EACH * parameters)):
+        problem = f"there are {samples} samples for {parameters} parameters"
+        raise _wrong(recordings[0], problem, f"at least {least}")
+
+
+def _scored(recording: Recording) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Displacement and force over the samples that count."""
+    if recording.force is None:
+        raise _wrong(recording, "there is no force", "a measured force")
+    scored = slice(*recording.scored)
+    return recording.displacement[scored], recording.force[scored]
+
+
+def _energy(x: NDArray[np.float64], force: NDArray[np.float64]) -> float:
+    """Dissipated energy over what force and motion of these sizes could dissipate."""
+    step = np.diff(x)
+    middle = (force[1:] + force[:-1]) / 2
+    size = float(np.sqrt(np.sum((middle - middle.mean()) ** 2) * np.sum(step**2)))
+    # Without its linear elastic part, whose energy is only stored.
+    slope, offset = np.polyfit(x, force, 1)
+    lost = middle - slope * (x[1:] + x[:-1]) / 2 - offset
+    return float(np.sum(lost * step)) / size if size > 0 else 0.0
+
+
+def _has_cycle(x: NDArray[np.float64]) -> bool:
+    """Two reversals, or one between ends on both sides of zero from which the motion comes back."""
+    swing = _SWING * float(np.ptp(x))
+    reversals, way, extreme = 0, 0, float(x[0])
+    for value in x.tolist():
+        if way == 0 and abs(value - extreme) > swing:
+            way, extreme = (1 if value > extreme else -1), value
+        elif way * (value - extreme) > 0:
+            extreme = value
+        elif way * (extreme - value) > swing:
+            reversals, way, extreme = reversals + 1, -way, value
+    if reversals != 1:
+        return reversals > 1
+    both = float(x.min()) < -2 * swing and float(x.max()) > 2 * swing
+    return both and abs(float(x[-1] - x[0])) < 2 * swing
+
+
+def _wrong(recording: Recording, problem: str, wanted: str) -> InputError:
+    name = f"recording '{recording.name}': " if recording.name else ""
+    return InputError(name + problem, wanted=wanted)

@@ -1,0 +1,44 @@
+"""The range of motion and current that a model was tested in."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ._core import Recording
+
+if TYPE_CHECKING:
+    from .model import Model
+
+
+def largest_motion(recordings: Sequence[Recording]) -> dict[str, float]:
+    """Largest absolute displacement in mm and velocity in mm/s in recordings."""
+    return {
+        "displacement_mm": max(float(np.abs(r.displacement).max()) for r in recordings),
+        "velocity_mm_s": max(float(np.abs(r.velocity).max()) for r in recordings),
+    }
+
+
+def beyond_tested(model: "Model", recording: Recording) -> list[str]:
+    """One sentence for every tested range that a recording leaves by more than 1 %."""
+    found = []
+    series = {"displacement_mm": recording.displacement, "velocity_mm_s": recording.velocity}
+    for key, values in series.items():
+        largest, tested = float(np.abs(values).max()), model.tested.get(key)
+        if tested is not None and largest > 1.01 * tested:
+            what, _, unit = key.partition("_")
+            unit = unit.replace("_", "/")
+            found.append(f"{what} goes to {largest:.4g} {unit}, tested up to {tested:.4g} {unit}")
+    known = [level.current for level in model.levels if level.current is not None]
+    if known and recording.current is not None:
+        current = np.asarray(recording.current)
+        low, high = float(current.min()), float(current.max())
+        margin = 0.02 + 0.02 * max(abs(value) for value in known)
+        if low < min(known) - margin or high > max(known) + margin:
+            span = f"goes from {low:.4g} A to {high:.4g} A" if low < high else f"is {low:.4g} A"
+            found.append(
+                f"current {span}, tested from {min(known):.4g} A to"
+                f" {max(known):.4g} A: the force of the nearest tested current is taken"
+            )
+    name = f"recording '{recording.name}': " if recording.name else ""
+    return [name + sentence for sentence in found]

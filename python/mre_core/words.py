@@ -1,0 +1,105 @@
+"""Plain sentences about a diagnosis."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+
+def verdict(kind: str, base: str, effects: Sequence[str], fit: Mapping[str, Any]) -> str:
+    """Say the verdict in one sentence.
+
+    Parameters
+    ----------
+    kind : str
+        ``"adequate"``, ``"missing_physics"``, ``"partly_explained"`` or ``"unexplained"``.
+    base : str
+        Name of the base model.
+    effects : sequence of str
+        Ids of the effects found.
+    fit : mapping
+        Rms errors before and after, and of the noise, in N.
+    """
+    model = "The given simulation" if base == "simulated" else f"The base model {base}"
+    named = listed(effects)
+    falls, noise = _change(fit), f"{fit['noise_rms']:.3g} N"
+    error = f"{fit['held_out_rms_before']:.3g} N"
+    return {
+        "adequate": f"{model} explains the recordings down to their noise (rms {noise}).",
+        "missing_physics": f"{model} leaves out {named}: with it {falls}, where the noise has {noise}.",
+        "partly_explained": f"{model} leaves out {named}: with it {falls}, but a mismatch is left that no"
+        " effect of the catalogue explains.",
+        "unexplained": f"{model} misses something that no effect of the catalogue explains: its rms error on"
+        f" held-out data is {error}, where the noise has {noise}.",
+    }[kind].replace("with it", "with them" if len(effects) > 1 else "with it")
+
+
+def effect(plain: str, found: Mapping[str, Any], shows: str | None) -> str:
+    """Say in one sentence what was left out, where it shows, and how much it improves."""
+    where = f"; this shows most {shows}" if shows else ""
+    return f"{plain[0].upper()}{plain[1:]}{where}; with it {_change(found)}."
+
+
+def _change(fit: Mapping[str, Any]) -> str:
+    before, after = fit["held_out_rms_before"], fit["held_out_rms_after"]
+    verb = "falls" if after < before else "rises"
+    return f"the rms error on held-out data {verb} from {before:.3g} N to {after:.3g} N"
+
+
+def place(found: Mapping[str, Any]) -> str:
+    """Say where a mismatch is, to follow "it shows most"."""
+    name = f"'{found['recording']}'" if "recording" in found else ""
+    match found["kind"]:
+        case "time":
+            return f"in {name} around {(found['from'] + found['to']) / 2:.3g} s"
+        case "state":
+            (low, high), (slowest, fastest) = found["x_mm"], found["v_mm_s"]
+            way = ", moving up" if slowest >= 0 else ", moving down" if fastest <= 0 else ""
+            return f"between {low:.3g} mm and {high:.3g} mm{way}"
+        case "harmonic":
+            drive, number = found["drive_hz"], found["harmonic"]
+            what = "at the frequency" if number == 1 else f"at {number} times the frequency"
+            return f"in {name} {what} of its drive ({drive * number:.3g} Hz)"
+        case _:
+            return f"in {name} as a whole"
+
+
+def mismatch(found: Mapping[str, Any]) -> str:
+    """Say what is off at a place."""
+    match found["kind"]:
+        case "time":
+            what = "one set of parameters does not fit the force before and after"
+        case "state":
+            what = "the force is off for these displacements, whatever the recording"
+        case "harmonic" if found["harmonic"] == 1:
+            stiff = abs(found["in_phase"]) > 0.7
+            what = (
+                "the force is off in phase with the displacement, as a stiffness would be"
+                if stiff
+                else "the force is off out of phase with the displacement, as a damping would be"
+            )
+        case "harmonic":
+            what = "the force has a part that the model does not give"
+        case _:
+            part = "damping" if found["damping"] else "stiffness"
+            what = f"its {part} does not agree with the other recordings"
+    where = place(found)
+    return f"{where[0].upper()}{where[1:]}: {what}."
+
+
+def hidden(detail: Mapping[str, Any], limit: str) -> str:
+    """Say why recordings hide an effect."""
+    if detail["whatever_its_size"]:
+        return f"the model bends to hide it whatever its size: {limit}"
+    size = f"{detail['parameter']} = {detail['up_to']:.3g} {detail['unit']}".strip()
+    return f"up to about {size} it has less than an even chance of being detected: {limit}"
+
+
+def interval(low: float | None, high: float | None) -> str:
+    """Say an interval, of which the recordings may not determine an end."""
+    if low is None and high is None:
+        return "not determined"
+    return " to ".join("?" if end is None else f"{end:.4g}" for end in (low, high))
+
+
+def listed(names: Sequence[str]) -> str:
+    """List names as in a sentence."""
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}" if names else ""

@@ -1,0 +1,63 @@
+//! Slow drift in residuals, told from slow noise.
+//!
+//! A whitening filter that has seen a drift hides it. But noise with much power at low frequencies, 1/f noise
+//! say, looks like drift: only what exceeds the extrapolation of the noise's own spectrum towards low frequencies,
+//! over all recordings together, is taken for drift.
+
+use std::f64::consts::PI;
+
+use super::distribution::chi_square_tail;
+
+/// Half-cosines that make a drift.
+const SLOW: usize = 3;
+/// Half-cosines from which the spectrum is extrapolated.
+const BESIDE: std::ops::Range<usize> = 5..25;
+/// Chance of an excess by noise below which it is a drift.
+const CHANCE: f64 = 1e-4;
+/// Spectra of noise rise towards low frequencies like the frequency to this power at most.
+const STEEPEST: f64 = -2.2;
+/// Caution: the extrapolated power is taken so many times as large.
+const CAUTION: f64 = 2.0;
+
+/// The residuals without their drift, if there is one.
+pub(super) fn without_drift(residuals: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let waves: Vec<Vec<f64>> =
+        residuals.iter().map(|e| (1..BESIDE.end).map(|k| amplitude(e, k)).collect()).collect();
+    let excess: f64 = waves.iter().map(|w| excess(w)).sum();
+    if chi_square_tail(excess / CAUTION, SLOW * residuals.len()) > CHANCE {
+        return residuals.to_vec();
+    }
+    residuals
+        .iter()
+        .zip(&waves)
+        .map(|(e, w)| {
+            let n = e.len();
+            let slow = |i: usize| (1..=SLOW).map(|k| w[k - 1] * wave(n, k, i)).sum::<f64>();
+            e.iter().enumerate().map(|(i, e)| e - slow(i)).collect()
+        })
+        .collect()
+}
+
+/// Half-cosine `k` at a sample, of unit square over `n` samples.
+fn wave(n: usize, k: usize, i: usize) -> f64 {
+    (2.0 / n as f64).sqrt() * (PI * k as f64 * (i as f64 + 0.5) / n as f64).cos()
+}
+
+fn amplitude(series: &[f64], k: usize) -> f64 {
+    series.iter().enumerate().map(|(i, e)| e * wave(series.len(), k, i)).sum()
+}
+
+/// Squares of the slow amplitudes over the extrapolated power.
+fn excess(waves: &[f64]) -> f64 {
+    // Least-squares line through the logarithms of squares against those of the frequency; the mean logarithm
+    // of a chi-square variable with one degree of freedom is -1.27.
+    let points: Vec<(f64, f64)> = BESIDE
+        .map(|k| ((k as f64).ln(), (waves[k - 1].powi(2)).max(f64::MIN_POSITIVE).ln() + 1.27))
+        .collect();
+    let count = points.len() as f64;
+    let (x, y) = points.iter().fold((0.0, 0.0), |s, p| (s.0 + p.0 / count, s.1 + p.1 / count));
+    let (xy, xx) =
+        points.iter().fold((0.0, 0.0), |s, p| (s.0 + (p.0 - x) * (p.1 - y), s.1 + (p.0 - x).powi(2)));
+    let slope = (xy / xx).clamp(STEEPEST, 0.0);
+    (1..=SLOW).map(|k| waves[k - 1].powi(2) / (y + slope * ((k as f64).ln() - x)).exp()).sum()
+}
