@@ -11,6 +11,8 @@ pub(crate) mod bouc_wen_gram;
 mod bouc_wen_rk4;
 mod dispatch;
 pub(crate) mod elementary;
+#[cfg(test)]
+mod example;
 pub(crate) mod hysteretic;
 mod lanes;
 mod sinh;
