@@ -85,7 +85,7 @@ const LOG2: [f64; 18] = [
 /// 2^r in powers of r, interpolated at the Chebyshev nodes of |r| <= 1/2.
 const EXP2: [f64; 11] = [
     1.0,
-    0.693_147_180_559_95,
+    std::f64::consts::LN_2,
     0.240_226_506_959_100_97,
     5.550_410_866_444_772e-2,
     9.618_129_107_606_888e-3,

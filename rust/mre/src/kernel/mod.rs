@@ -18,6 +18,7 @@ mod lanes;
 mod sinh;
 pub(crate) mod sinh_compressed;
 mod sinh_direct;
+mod total;
 pub(crate) mod triangle;
 
 pub(crate) use bouc_wen_rk4::BoucWenRk4;

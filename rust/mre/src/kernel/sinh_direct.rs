@@ -2,6 +2,7 @@
 
 use super::dispatch::{self, Isa, for_every_isa};
 use super::elementary::{LARGEST, fma, sinh, sinh_lane};
+use super::total::total;
 use crate::recording::Recording;
 
 /// Samples whose squares are added side by side: the widest registers there are. The processor overlaps
@@ -55,21 +56,21 @@ for_every_isa!(sum, sum_generic, (x: &[f64], v: &[f64], f: &[f64], candidate: [f
 
 #[inline(always)]
 fn sum_generic<const FUSED: bool>(x: &[f64], v: &[f64], f: &[f64], candidate: [f64; 5]) -> f64 {
-    let n = x.len().min(v.len()).min(f.len());
-    let whole = n - n % LANES;
+    let ((x, x_rest), (v, v_rest), (f, f_rest)) =
+        (x.as_chunks::<LANES>(), v.as_chunks::<LANES>(), f.as_chunks::<LANES>());
     let mut sums = [0.0; LANES];
-    for start in (0..whole).step_by(LANES) {
-        let (x, v, f) = (&x[start..start + LANES], &v[start..start + LANES], &f[start..start + LANES]);
+    for ((x, v), f) in x.iter().zip(v).zip(f) {
         for l in 0..LANES {
             let r = residual::<FUSED>(x[l], v[l], f[l], candidate);
             sums[l] = fma::<FUSED>(r, r, sums[l]);
         }
     }
-    for i in whole..n {
-        let r = residual::<FUSED>(x[i], v[i], f[i], candidate);
-        sums[i - whole] = fma::<FUSED>(r, r, sums[i - whole]);
+    let mut rest = 0.0;
+    for ((x, v), f) in x_rest.iter().zip(v_rest).zip(f_rest) {
+        let r = residual::<FUSED>(*x, *v, *f, candidate);
+        rest = fma::<FUSED>(r, r, rest);
     }
-    sums.iter().sum()
+    total(&mut sums) + rest
 }
 
 #[inline(always)]
