@@ -31,6 +31,12 @@ impl Plan {
         Self { step, demand, largest }
     }
 
+    /// A plan with a quarter of the sub-steps: for a first look. RK4 stays stable.
+    pub(crate) fn rough(&self) -> Self {
+        let demand = self.demand.iter().map(|demand| 0.25 * demand).collect();
+        Self { step: self.step.clone(), demand, largest: 0.25 * self.largest }
+    }
+
     /// True where a candidate of this stiffness would need too many sub-steps.
     pub(super) fn too_coarse(&self, stiffness: f64) -> bool {
         let substeps = stiffness * self.largest;

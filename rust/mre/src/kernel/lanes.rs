@@ -21,8 +21,16 @@ impl Lanes {
     /// Up to [`LANES`] shapes `[rho, sigma, n]`; the last one fills the rest.
     pub(super) fn new(plan: &Plan, shapes: impl Fn(usize) -> [f64; 3]) -> Self {
         let shapes: [[f64; 3]; LANES] = std::array::from_fn(shapes);
+        Self::with_stiffness(plan, &shapes, shapes.map(stiffness))
+    }
+
+    /// Shapes whose sub-steps follow from a given stiffness.
+    pub(super) fn with_stiffness(
+        plan: &Plan,
+        shapes: &[[f64; 3]; LANES],
+        mut stiffness: [f64; LANES],
+    ) -> Self {
         let mut rho = shapes.map(|shape| shape[0]);
-        let mut stiffness = shapes.map(stiffness);
         let hopeless = stiffness.map(|s| plan.too_coarse(s));
         for l in 0..LANES {
             if hopeless[l] {
