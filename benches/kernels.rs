@@ -91,6 +91,9 @@ fn sinh_direct(c: &mut Criterion) {
     );
 }
 
+/// Exponent n of a lane, its place given as a share of the lanes.
+type Exponent = fn(f64) -> f64;
+
 /// Candidates that need no sub-steps, which the C version does not take.
 fn bouc_wen(c: &mut Criterion) {
     let Ok(problem) = problem("bouc_wen", SAMPLES) else { return };
@@ -100,7 +103,7 @@ fn bouc_wen(c: &mut Criterion) {
     for ((x, n), power) in base.iter().zip(&exponents).zip(rivals::power(&base, &exponents)) {
         assert!((power - x.powf(*n)).abs() <= 1e-13 * x.powf(*n), "{x} to the {n} in C is {power}");
     }
-    let exponents: [(&str, fn(f64) -> f64); 3] =
+    let exponents: [(&str, Exponent); 3] =
         [("bouc_wen", |lane| 1.1 + lane), ("bouc_wen/n=1", |_| 1.0), ("bouc_wen/n=2", |_| 2.0)];
     for (name, exponent) in exponents {
         let rows: Vec<[f64; 7]> = (0..rivals::LANES)
