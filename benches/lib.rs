@@ -1,4 +1,6 @@
-//! Recordings on which the benchmarks run.
+//! Recordings on which the benchmarks run, and rivals.
+
+pub mod rivals;
 
 use std::f64::consts::TAU;
 use std::sync::Arc;

@@ -1,47 +1,61 @@
-//! One iteration of MAFSA with the paper's settings on 1,000 samples, on all cores.
+//! MAFSA with the paper's settings on 1,000 samples: one iteration of each model, and the whole run with
+//! the sinh model on one and two threads.
 #![allow(missing_docs)] // made by the macros of criterion
 
 use std::sync::atomic::AtomicBool;
 
-use criterion::{Criterion, criterion_group, criterion_main};
+use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use mre::fitness::Problem;
 use mre::swarm::{Budget, Crowd, FishSettings, FishSwarm, Neighbourhood, Schedule, Search, run};
 use mre_bench::problem;
 
-fn iteration(c: &mut Criterion) {
+fn mafsa(problem: &Problem, iterations: usize) {
+    let d = problem.bounds().len();
+    let settings = FishSettings {
+        fish: 50,
+        iterations,
+        try_number: 50,
+        delta: 0.6,
+        visual: 0.5,
+        step: 0.25,
+        schedule: Schedule::FromStart { visual_min: 0.002, step_min: 0.0003, p: 5 },
+        neighbourhood: Neighbourhood::Swarm,
+        crowd: Crowd::Literal,
+        search: Search::Best,
+    };
+    let Ok(mut swarm) = FishSwarm::new(settings, d, 1, None) else { return };
     let never = AtomicBool::new(false);
+    let mut physical = Vec::new();
+    let mut evaluate = |unit: &[f64], costs: &mut [f64]| {
+        physical.resize(unit.len(), 0.0);
+        problem.bounds().to_physical(unit, &mut physical);
+        problem.fitness(&physical, costs, &never);
+    };
+    run(&mut swarm, &mut evaluate, d, &Budget::default(), &mut |_| true);
+}
+
+fn iteration(c: &mut Criterion) {
     for model in ["sinh", "bouc_wen"] {
         let Ok(problem) = problem(model, 1_000) else { continue };
-        let d = problem.bounds().len();
-        let settings = FishSettings {
-            fish: 50,
-            iterations: 1,
-            try_number: 50,
-            delta: 0.6,
-            visual: 0.5,
-            step: 0.25,
-            schedule: Schedule::FromStart { visual_min: 0.002, step_min: 0.0003, p: 5 },
-            neighbourhood: Neighbourhood::Swarm,
-            crowd: Crowd::Literal,
-            search: Search::Best,
-        };
-        c.bench_function(&format!("mafsa_iteration/{model}"), |b| {
-            b.iter(|| {
-                let Ok(mut swarm) = FishSwarm::new(settings.clone(), d, 1, None) else { return };
-                let mut physical = Vec::new();
-                let mut evaluate = |unit: &[f64], costs: &mut [f64]| {
-                    physical.resize(unit.len(), 0.0);
-                    problem.bounds().to_physical(unit, &mut physical);
-                    problem.fitness(&physical, costs, &never);
-                };
-                run(&mut swarm, &mut evaluate, d, &Budget::default(), &mut |_| true);
-            });
+        c.bench_function(&format!("mafsa_iteration/{model}"), |b| b.iter(|| mafsa(&problem, 1)));
+    }
+}
+
+fn whole(c: &mut Criterion) {
+    let Ok(problem) = problem("sinh", 1_000) else { return };
+    let mut group = c.benchmark_group("mafsa_run/threads");
+    for threads in [1, 2] {
+        let Ok(pool) = rayon::ThreadPoolBuilder::new().num_threads(threads).build() else { continue };
+        group.bench_function(BenchmarkId::from_parameter(threads), |b| {
+            b.iter(|| pool.install(|| mafsa(&problem, 300)));
         });
     }
+    group.finish();
 }
 
 criterion_group! {
     name = benches;
     config = Criterion::default().sample_size(10);
-    targets = iteration
+    targets = iteration, whole
 }
 criterion_main!(benches);

@@ -1,10 +1,18 @@
-//! Descent to a local minimum of a smooth function on the unit box, by quadratic models from batches of
-//! values: made for functions of a few variables whose values come cheaper side by side.
+//! Descents to local minima of a smooth function on the unit box, side by side, by quadratic models: made
+//! for functions of a few variables whose values come cheaper in batches.
+
+use nalgebra::{DMatrix, DVector};
 
 /// A quadratic model is trusted at most this far.
 const FARTHEST: f64 = 0.1;
-/// The search ends when the trusted distance falls below this.
-const NEAREST: f64 = 1e-9;
+/// A descent ends when the trusted distance falls below this,
+const NEAREST: f64 = 1e-6;
+/// or when the model promises no larger share of the value than this.
+const GAIN: f64 = 1e-9;
+/// Two descents this near to each other go to the same minimum.
+const SAME: f64 = 1e-3;
+/// Steps tried from every model, in trusted distances.
+const TRIALS: [f64; 4] = [0.0625, 0.25, 1.0, 4.0];
 
 /// A point of the unit box and its value.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,104 +21,96 @@ pub(crate) struct Point {
     pub(crate) value: f64,
 }
 
-/// Descend from a point. `values` takes rows of points. Returns the best point ever evaluated and the
-/// number of evaluations.
-pub(crate) fn descend(start: Point, radius: f64, values: &dyn Fn(&[f64]) -> Vec<f64>) -> (Point, u64) {
-    let d = start.at.len();
-    let mut best = start;
-    let mut radius = radius.min(FARTHEST);
-    let mut evaluations = 0;
-    while d > 0 && radius > NEAREST {
-        let spacing = 0.5 * radius;
-        // Away from the walls, so that the stencil fits into the box.
-        let centre: Vec<f64> = best.at.iter().map(|x| x.clamp(spacing, 1.0 - spacing)).collect();
-        let stencil = stencil(&centre, spacing);
-        let found = values(&stencil);
+/// One descent under way.
+struct Descent {
+    best: Point,
+    radius: f64,
+}
+
+/// The best point that descents from several points come to, and the number of trials. `models` and
+/// `values` take rows of points.
+///
+/// A descent that comes near a better one is given up.
+pub(crate) fn descend(
+    starts: Vec<Point>,
+    radius: f64,
+    models: &dyn Fn(&[f64]) -> Vec<Quadratic>,
+    values: &dyn Fn(&[f64]) -> Vec<f64>,
+) -> (Option<Point>, u64) {
+    let mut under_way: Vec<Descent> =
+        starts.into_iter().map(|best| Descent { best, radius: radius.min(FARTHEST) }).collect();
+    let (mut ended, mut evaluations) = (Vec::new(), 0);
+    while !under_way.is_empty() {
+        let centres: Vec<f64> = under_way.iter().flat_map(|descent| descent.best.at.clone()).collect();
+        let (mut steps, mut gains) = (Vec::new(), Vec::new());
+        for (descent, model) in under_way.iter().zip(models(&centres)) {
+            let wished = TRIALS.map(|share| model.minimise((share * descent.radius).min(FARTHEST)));
+            gains.push(wished[TRIALS.len() - 1].1);
+            steps.extend(wished.into_iter().flat_map(|(at, _)| at));
+        }
+        let found = values(&steps);
         evaluations += found.len() as u64;
-        let model = Quadratic::from_values(&found, spacing, d);
-        let before = best.value;
-        keep_best(&mut best, &stencil, &found);
-        let trials: Vec<f64> = [0.25, 1.0, 4.0]
-            .iter()
-            .flat_map(|s| model.minimise(&centre, (s * radius).min(FARTHEST)))
-            .collect();
-        let found = values(&trials);
-        evaluations += found.len() as u64;
-        let winner = found.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(i, _)| i);
-        keep_best(&mut best, &trials, &found);
-        let gain = before - best.value;
-        radius = if found[winner] > best.value || gain <= 1e-15 * before.abs() {
-            0.2 * radius
+        let trials = steps.chunks_exact(steps.len() / under_way.len()).zip(found.chunks_exact(TRIALS.len()));
+        let mut going: Vec<Descent> = Vec::new();
+        for ((mut descent, (steps, found)), gain) in under_way.into_iter().zip(trials).zip(gains) {
+            descent.take_best(steps, found);
+            if descent.radius > NEAREST && gain > GAIN * descent.best.value {
+                going.push(descent);
+            } else {
+                ended.push(descent.best);
+            }
+        }
+        under_way = apart(going, &ended);
+    }
+    (ended.into_iter().min_by(|a, b| a.value.total_cmp(&b.value)), evaluations)
+}
+
+impl Descent {
+    /// Go to the best of the trials, if it is better, and trust the model as far as that was.
+    fn take_best(&mut self, steps: &[f64], found: &[f64]) {
+        let winner = (0..found.len()).min_by(|a, b| found[*a].total_cmp(&found[*b])).unwrap_or(0);
+        if found[winner] < self.best.value {
+            let d = self.best.at.len();
+            self.best = Point { at: steps[winner * d..(winner + 1) * d].to_vec(), value: found[winner] };
+            self.radius = (self.radius * TRIALS[winner]).min(FARTHEST);
         } else {
-            (radius * [0.25, 1.0, 4.0][winner]).min(FARTHEST)
+            self.radius *= 0.5 * TRIALS[0];
+        }
+    }
+}
+
+/// The descents that are not near a better one.
+fn apart(descents: Vec<Descent>, ended: &[Point]) -> Vec<Descent> {
+    let places: Vec<Point> = descents.iter().map(|d| d.best.clone()).collect();
+    let given_up = |own: usize| {
+        let better = |other: &Point| {
+            other.value <= places[own].value
+                && other.at.iter().zip(&places[own].at).all(|(a, b)| (a - b).abs() < SAME)
         };
-    }
-    (best, evaluations)
-}
-
-fn keep_best(best: &mut Point, rows: &[f64], values: &[f64]) {
-    let d = best.at.len();
-    for (row, value) in rows.chunks_exact(d).zip(values) {
-        if *value < best.value {
-            *best = Point { at: row.to_vec(), value: *value };
-        }
-    }
-}
-
-/// The centre, both neighbours along every axis, and along the diagonals of every pair of axes.
-fn stencil(centre: &[f64], h: f64) -> Vec<f64> {
-    let d = centre.len();
-    let mut rows = centre.to_vec();
-    let mut push = |steps: &[(usize, f64)]| {
-        let mut row = centre.to_vec();
-        for (axis, step) in steps {
-            row[*axis] += step;
-        }
-        rows.extend(row);
+        let earlier = |i: usize| i < own || places[i].value < places[own].value;
+        ended.iter().any(better) || (0..places.len()).any(|i| i != own && earlier(i) && better(&places[i]))
     };
-    for i in 0..d {
-        push(&[(i, h)]);
-        push(&[(i, -h)]);
-    }
-    for i in 0..d {
-        for j in 0..i {
-            push(&[(i, h), (j, h)]);
-            push(&[(i, -h), (j, -h)]);
-        }
-    }
-    rows
+    descents.into_iter().enumerate().filter(|(own, _)| !given_up(*own)).map(|(_, descent)| descent).collect()
 }
 
-/// `g' s + s' H s / 2` around the centre of a stencil.
-struct Quadratic {
-    gradient: nalgebra::DVector<f64>,
-    hessian: nalgebra::DMatrix<f64>,
+/// `g' s + s' H s / 2` for steps s from the centre.
+pub(crate) struct Quadratic {
+    pub(super) centre: Vec<f64>,
+    pub(super) gradient: DVector<f64>,
+    pub(super) hessian: DMatrix<f64>,
 }
 
 impl Quadratic {
-    fn from_values(values: &[f64], h: f64, d: usize) -> Self {
-        let centre = values[0];
-        let along = |i: usize| (values[1 + 2 * i], values[2 + 2 * i]);
-        let gradient = nalgebra::DVector::from_fn(d, |i, _| (along(i).0 - along(i).1) / (2.0 * h));
-        let mut hessian = nalgebra::DMatrix::zeros(d, d);
-        let mut next = 1 + 2 * d;
-        for i in 0..d {
-            hessian[(i, i)] = (along(i).0 + along(i).1 - 2.0 * centre) / (h * h);
-            for j in 0..i {
-                let both = values[next] + values[next + 1];
-                next += 2;
-                let single = along(i).0 + along(i).1 + along(j).0 + along(j).1;
-                hessian[(i, j)] = (both - single + 2.0 * centre) / (2.0 * h * h);
-                hessian[(j, i)] = hessian[(i, j)];
-            }
-        }
-        Self { gradient, hessian }
+    /// A model that promises nothing.
+    pub(super) fn flat(centre: &[f64]) -> Self {
+        let d = centre.len();
+        Self { centre: centre.to_vec(), gradient: DVector::zeros(d), hessian: DMatrix::zeros(d, d) }
     }
 
-    /// Minimum within a distance (in every coordinate) of the centre and within the box, by trying every
-    /// set of active walls: exact for the few variables that there are.
-    fn minimise(&self, centre: &[f64], radius: f64) -> Vec<f64> {
-        let d = centre.len();
+    /// Minimum within a distance (in every coordinate) of the centre and within the box, and the gain
+    /// expected there; by trying every set of active walls: exact for the few variables that there are.
+    pub(super) fn minimise(&self, radius: f64) -> (Vec<f64>, f64) {
+        let (centre, d) = (&self.centre, self.centre.len());
         let low: Vec<f64> = centre.iter().map(|c| (-radius).max(-c)).collect();
         let high: Vec<f64> = centre.iter().map(|c| radius.min(1.0 - c)).collect();
         let mut best = (f64::INFINITY, vec![0.0; d]);
@@ -139,6 +139,6 @@ impl Quadratic {
                 best = (value, step);
             }
         }
-        centre.iter().zip(&best.1).map(|(c, s)| (c + s).clamp(0.0, 1.0)).collect()
+        (centre.iter().zip(&best.1).map(|(c, s)| (c + s).clamp(0.0, 1.0)).collect(), -best.0)
     }
 }

@@ -3,7 +3,9 @@
 mod bounded;
 pub mod certified;
 mod descent;
+mod gauss_newton;
 mod projection;
+mod refine;
 mod solve;
 
 pub use solve::{Fit, exact, hybrid};

@@ -11,24 +11,24 @@ use super::certified::{Curve, Kind};
 use crate::fitness::Problem;
 use crate::kernel::LANES;
 use crate::kernel::bouc_wen_gram::products;
-use crate::kernel::hysteretic::Plan;
+use crate::kernel::hysteretic::{Plan, stiffness};
 use crate::law::Law;
 
 /// A problem seen as a function of its shapes alone, on the unit box.
 pub(crate) struct Projection<'a> {
-    problem: &'a Problem,
+    pub(super) problem: &'a Problem,
     /// Places of the shapes among the parameters, and of the coefficients.
     shapes: Vec<usize>,
-    coefficients: Vec<usize>,
+    pub(super) coefficients: Vec<usize>,
     /// For the simulations of Bouc-Wen, one a recording: its plan, and the products that no shape changes.
-    lanes: Vec<(Plan, Gram)>,
+    pub(super) lanes: Vec<(Plan, Gram)>,
     /// For the sinh model, which needs neither columns nor their products.
     curve: Option<Curve<'a>>,
     cancel: &'a AtomicBool,
 }
 
 /// Gram matrix of the columns and the force, the force last.
-type Gram = DMatrix<f64>;
+pub(super) type Gram = DMatrix<f64>;
 
 impl<'a> Projection<'a> {
     pub(crate) fn new(problem: &'a Problem, cancel: &'a AtomicBool) -> Self {
@@ -43,6 +43,18 @@ impl<'a> Projection<'a> {
         Self { problem, shapes: places(true), coefficients: places(false), lanes, curve, cancel }
     }
 
+    /// The same with cruder simulations, to choose places from.
+    pub(crate) fn rough(&self) -> Self {
+        Self {
+            problem: self.problem,
+            shapes: self.shapes.clone(),
+            coefficients: self.coefficients.clone(),
+            lanes: self.lanes.iter().map(|(plan, fixed)| (plan.rough(), fixed.clone())).collect(),
+            curve: None, // only lanes have rough simulations
+            cancel: self.cancel,
+        }
+    }
+
     /// Number of shapes.
     pub(crate) fn dimension(&self) -> usize {
         self.shapes.len()
@@ -55,11 +67,17 @@ impl<'a> Projection<'a> {
             return vec![self.solve(&[]).1];
         }
         let rows: Vec<Vec<f64>> = unit.chunks_exact(d).map(|row| self.physical(row)).collect();
-        if self.lanes.is_empty() || *self.problem.law() != Law::Shared {
+        if !self.in_lanes() {
             let cost = |row: &Vec<f64>| if self.cancelled() { f64::NAN } else { self.candidate(row).1 };
             return rows.par_iter().map(cost).collect();
         }
-        rows.par_chunks(LANES)
+        let mut order: Vec<usize> = (0..rows.len()).collect();
+        // Alike shapes side by side: a block takes as long as its stiffest lane.
+        let cost = |i: usize| stiffness([rows[i][3], rows[i][4], rows[i][5]]);
+        order.sort_by(|a, b| cost(*a).total_cmp(&cost(*b)));
+        let sorted: Vec<Vec<f64>> = order.iter().map(|i| rows[*i].clone()).collect();
+        let found: Vec<f64> = sorted
+            .par_chunks(LANES)
             .flat_map_iter(|block| {
                 if self.cancelled() {
                     return vec![f64::NAN; block.len()];
@@ -67,10 +85,20 @@ impl<'a> Projection<'a> {
                 let grams = self.lane_grams(block);
                 block.iter().zip(grams).map(|(row, gram)| self.best(row, &gram).1).collect::<Vec<_>>()
             })
-            .collect()
+            .collect();
+        let mut costs = vec![f64::NAN; found.len()];
+        for (i, cost) in order.into_iter().zip(found) {
+            costs[i] = cost;
+        }
+        costs
     }
 
-    fn cancelled(&self) -> bool {
+    /// True where shapes are simulated side by side.
+    pub(super) fn in_lanes(&self) -> bool {
+        !self.lanes.is_empty() && *self.problem.law() == Law::Shared
+    }
+
+    pub(super) fn cancelled(&self) -> bool {
         self.cancel.load(Ordering::Relaxed)
     }
 
@@ -95,7 +123,7 @@ impl<'a> Projection<'a> {
         self.shapes.iter().map(|i| unit[*i]).collect()
     }
 
-    fn physical(&self, unit: &[f64]) -> Vec<f64> {
+    pub(super) fn physical(&self, unit: &[f64]) -> Vec<f64> {
         let bounds = self.problem.bounds();
         let mut all = vec![0.0; bounds.len()];
         for (place, u) in self.shapes.iter().zip(unit) {
@@ -112,11 +140,10 @@ impl<'a> Projection<'a> {
         if gram.iter().any(|g| !g.is_finite()) {
             return (row.to_vec(), f64::INFINITY);
         }
-        let bounds = self.problem.bounds();
-        let pick = |values: &[f64]| self.coefficients.iter().map(|i| values[*i]).collect::<Vec<_>>();
         let matrix = gram.view((0, 0), (k, k)).into_owned();
         let right = DVector::from_fn(k, |i, _| gram[(i, k)]);
-        let found = bounded::minimise(&matrix, &right, &pick(bounds.lower()), &pick(bounds.upper()));
+        let (lower, upper) = self.box_of_coefficients();
+        let found = bounded::minimise(&matrix, &right, &lower, &upper);
         let b = DVector::from_vec(found);
         let cost = (gram[(k, k)] - 2.0 * b.dot(&right) + b.dot(&(&matrix * &b))).max(0.0);
         let mut parameters = row.to_vec();
@@ -124,6 +151,13 @@ impl<'a> Projection<'a> {
             parameters[*place] = *value;
         }
         (parameters, cost)
+    }
+
+    /// Lower and upper bounds of the coefficients.
+    pub(super) fn box_of_coefficients(&self) -> (Vec<f64>, Vec<f64>) {
+        let bounds = self.problem.bounds();
+        let pick = |values: &[f64]| self.coefficients.iter().map(|i| values[*i]).collect();
+        (pick(bounds.lower()), pick(bounds.upper()))
     }
 
     /// Gram matrix column by column: any model, any law.

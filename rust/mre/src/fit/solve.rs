@@ -5,6 +5,7 @@ use std::sync::atomic::AtomicBool;
 use super::certified::{self, Kind};
 use super::descent::{Point, descend};
 use super::projection::Projection;
+use super::refine::refine;
 use crate::error::Result;
 use crate::fitness::Problem;
 use crate::swarm::{Budget, FishSettings, FishSwarm, History, Monitor, StopReason, Swarm, run};
@@ -12,7 +13,7 @@ use crate::swarm::{Budget, FishSettings, FishSwarm, History, Monitor, StopReason
 /// Points of the first scan along each shape, by the number of shapes.
 const SCAN: [usize; 4] = [0, 64, 12, 6];
 /// Places of the scan from which is descended.
-const STARTS: usize = 6;
+const STARTS: usize = 4;
 
 /// Outcome of a fit.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,6 +46,9 @@ pub fn exact(problem: &Problem, cancel: &AtomicBool) -> Fit {
 fn scan_and_descend(problem: &Problem, cancel: &AtomicBool) -> Fit {
     let projection = Projection::new(problem, cancel);
     let d = projection.dimension();
+    if d == 0 {
+        return polish(problem, &projection, Vec::new(), 0.0, 1, StopReason::Iterations);
+    }
     let mut scan = Vec::new();
     let per_axis = SCAN.get(d).copied().unwrap_or(5);
     for code in 0..per_axis.pow(d as u32) {
@@ -54,20 +58,24 @@ fn scan_and_descend(problem: &Problem, cancel: &AtomicBool) -> Fit {
                 .map(|k| k / per_axis as f64),
         );
     }
-    let values = projection.costs(&scan);
+    let values = projection.rough().costs(&scan);
     let mut points: Vec<Point> = values
         .iter()
         .enumerate()
         .map(|(i, v)| Point { at: scan[i * d..(i + 1) * d].to_vec(), value: *v })
         .collect();
     points.sort_by(|a, b| a.value.total_cmp(&b.value));
-    let starts = separate(&points, 1.5 / per_axis.max(1) as f64);
+    let mut starts = separate(&points, 1.5 / per_axis as f64);
+    let places: Vec<f64> = starts.iter().flat_map(|start| start.at.clone()).collect();
+    for (start, cost) in starts.iter_mut().zip(projection.costs(&places)) {
+        start.value = cost;
+    }
     polish(
         problem,
         &projection,
         starts,
-        0.5 / per_axis.max(1) as f64,
-        values.len() as u64,
+        0.5 / per_axis as f64,
+        (values.len() + places.len() / d) as u64,
         StopReason::Iterations,
     )
 }
@@ -127,15 +135,17 @@ fn polish(
     mut evaluations: u64,
     reason: StopReason,
 ) -> Fit {
-    let mut best: Option<Point> = None;
-    for start in starts {
-        let (found, more) = descend(start, radius, &|rows| projection.costs(rows));
-        evaluations += more;
-        if best.as_ref().is_none_or(|b| found.value < b.value) {
-            best = Some(found);
-        }
-    }
-    let shapes = best.map_or_else(|| vec![0.5; projection.dimension()], |point| point.at);
+    let values = |rows: &[f64]| projection.costs(rows);
+    let (best, more) = descend(starts, radius, &|rows| projection.models(rows), &values);
+    evaluations += more;
+    let shapes = best.map_or_else(
+        || vec![0.5; projection.dimension()],
+        |best| {
+            let (refined, more) = refine(best, &values);
+            evaluations += more;
+            refined.at
+        },
+    );
     let (values, _) = projection.solve(&shapes);
     // The cost as every other result has it, not through the normal equations.
     let mut cost = [0.0];

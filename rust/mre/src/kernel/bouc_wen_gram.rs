@@ -1,9 +1,9 @@
 //! Inner products of the hysteretic variable with the other columns of the Bouc-Wen model, lanes over
-//! candidates: all that variable projection needs of a simulation.
+//! candidates: all that variable projection needs of a simulation. Its traces, for derivatives.
 
 use super::dispatch::{self, for_every_isa};
 use super::elementary::fma;
-use super::hysteretic::Plan;
+use super::hysteretic::{Plan, stiffness};
 use super::lanes::{LANES, Lanes};
 use crate::recording::Recording;
 
@@ -49,4 +49,37 @@ fn simulate_generic<const FUSED: bool>(recording: &Recording, plan: &Plan, lanes
         }
     }
     sums
+}
+
+/// The hysteretic variable at every sample, a lane for each of up to [`LANES`] shapes. Groups of shapes,
+/// for differences within, take the sub-steps of their first: their number jumps.
+pub(crate) fn traces(
+    recording: &Recording,
+    plan: &Plan,
+    shapes: &[[f64; 3]],
+    group: usize,
+) -> Vec<[f64; LANES]> {
+    let shapes: [[f64; 3]; LANES] = std::array::from_fn(|l| shapes[l.min(shapes.len() - 1)]);
+    let lanes =
+        Lanes::with_stiffness(plan, &shapes, std::array::from_fn(|l| stiffness(shapes[l - l % group])));
+    let mut out = vec![[0.0; LANES]; recording.len()];
+    trace(dispatch::best(), recording, plan, &lanes, &mut out);
+    out
+}
+
+for_every_isa!(trace, trace_generic, (recording: &Recording, plan: &Plan, lanes: &Lanes, out: &mut [[f64; LANES]]) -> ());
+
+#[inline(always)]
+fn trace_generic<const FUSED: bool>(
+    recording: &Recording,
+    plan: &Plan,
+    lanes: &Lanes,
+    out: &mut [[f64; LANES]],
+) {
+    let velocity = recording.velocity();
+    let mut w = [0.0; LANES];
+    for i in 0..plan.step.len() {
+        lanes.advance::<FUSED>(&mut w, (velocity[i], velocity[i + 1]), plan.step[i], plan.demand[i]);
+        out[i + 1] = w;
+    }
 }

@@ -78,3 +78,48 @@ fn simulate_generic<const FUSED: bool>(on: &BoucWenRk4, block: &Block) -> [f64; 
     }
     sums
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel::example;
+
+    /// Ordinary candidates, one with n = 1, one with n = 2, one in sub-steps, one beyond all sub-steps.
+    const ROWS: [[f64; 7]; 5] = [
+        [0.1, 2.0, 30.0, 0.3, 0.8, 1.7, 0.1],
+        [0.1, 2.0, 30.0, 0.3, 0.6, 1.0, 0.1],
+        [0.2, 1.0, 40.0, 0.2, 0.5, 2.0, 0.3],
+        [0.2, 1.0, 40.0, 9.0, 1.5, 4.0, 0.3],
+        [0.2, 1.0, 40.0, 1e6, 1.5, 4.0, 0.3],
+    ];
+
+    fn costs(kernel: &BoucWenRk4, rows: &[[f64; 7]]) -> Vec<f64> {
+        let block: Vec<&[f64]> = rows.iter().map(<[f64; 7]>::as_slice).collect();
+        let mut out = vec![0.0; rows.len()];
+        kernel.sums_of_squares(&block, &mut out);
+        out
+    }
+
+    #[test]
+    fn every_instruction_set_gives_the_same() {
+        let best = BoucWenRk4::new(example::recording());
+        let on = |isa| costs(&BoucWenRk4 { isa, ..best.clone() }, &ROWS);
+        let plain = on(Isa::Plain);
+        for isa in dispatch::available() {
+            let found = on(isa);
+            let alike = |(a, b): (&f64, &f64)| a == b || (a - b).abs() <= 1e-12 * b;
+            assert!(found.iter().zip(&plain).all(alike), "{isa:?}: {found:?} {plain:?}");
+        }
+    }
+
+    #[test]
+    fn a_value_does_not_depend_on_the_others_in_the_block() {
+        let best = BoucWenRk4::new(example::recording());
+        for isa in dispatch::available() {
+            let kernel = BoucWenRk4 { isa, ..best.clone() };
+            let alone: Vec<f64> = ROWS.iter().flat_map(|row| costs(&kernel, &[*row])).collect();
+            assert_eq!(alone, costs(&kernel, &ROWS), "{isa:?}");
+            assert_eq!(alone[4], f64::INFINITY);
+        }
+    }
+}

@@ -39,6 +39,17 @@ pub(super) fn best() -> Isa {
     }
 }
 
+/// All instruction sets of this machine.
+#[cfg(test)]
+pub(super) fn available() -> Vec<Isa> {
+    match best() {
+        Isa::Plain => vec![Isa::Plain],
+        #[cfg(target_arch = "x86_64")]
+        Isa::Avx512 if is_x86_feature_detected!("avx2") => vec![Isa::Avx512, Isa::Avx2, Isa::Plain],
+        best => vec![best, Isa::Plain],
+    }
+}
+
 /// Compile `$generic::<FUSED>` for every instruction set and define `$name`, which takes the set.
 macro_rules! for_every_isa {
     ($name:ident, $generic:ident, ($($arg:ident: $ty:ty),*) -> $out:ty) => {

@@ -6,63 +6,101 @@ pub(super) fn fma<const FUSED: bool>(a: f64, b: f64, c: f64) -> f64 {
     if FUSED { a.mul_add(b, c) } else { a * b + c }
 }
 
-const ROUND: f64 = 6_755_399_441_055_744.0; // 1.5 * 2^52: adding it rounds to an integer
+/// Adding it rounds to an integer, which then stands in the low bits: 1.5 * 2^52.
+const ROUND: f64 = 6_755_399_441_055_744.0;
 const LN2_HIGH: f64 = 6.931_471_803_691_238e-1; // ln 2 in two parts; the first ends in zero bits
 const LN2_LOW: f64 = 1.908_214_929_270_587_7e-10;
 
-/// The integer nearest to `x` (|x| < 2^51), as a number and as the bits of its two's complement.
-#[inline(always)]
-fn round(x: f64) -> (f64, u64) {
-    let shifted = x + ROUND;
-    (shifted - ROUND, shifted.to_bits().wrapping_sub(ROUND.to_bits()))
-}
+/// Largest |x| of the lane version of sinh.
+pub(super) const LARGEST: f64 = 700.0;
 
-/// 2^k for an integer k in [-1022, 1023], given by its bits.
-#[inline(always)]
-fn power_of_two(k: u64) -> f64 {
-    f64::from_bits(k.wrapping_add(1023) << 52)
-}
+/// (sinh r / r - 1) / r^2 and (cosh r - 1) / r^2 in powers of r^2, interpolated at the Chebyshev nodes of
+/// |r| <= ln 2 / 2.
+const SINH: [f64; 5] = [
+    0.166_666_666_666_666_7,
+    8.333_333_333_330_063e-3,
+    1.984_126_986_304_708e-4,
+    2.755_726_847_015_456e-6,
+    2.510_038_066_379_376_6e-8,
+];
+const COSH: [f64; 5] = [
+    0.5,
+    4.166_666_666_662_414e-2,
+    1.388_888_891_720_521_7e-3,
+    2.480_152_130_916_285_5e-5,
+    2.762_008_216_238_176_5e-7,
+];
 
-/// sinh for |x| <= 700, relative error below 4e-15.
+/// sinh for |x| <= [`LARGEST`], relative error below 4e-15.
 ///
 /// With `x = k ln 2 + r`, `sinh x = sinh(k ln 2) cosh r + cosh(k ln 2) sinh r`: nothing cancels for
 /// small x, where k is zero.
 #[inline(always)]
 pub(super) fn sinh_lane<const FUSED: bool>(x: f64) -> f64 {
-    let (k, bits) = round(x * std::f64::consts::LOG2_E);
+    // The low bits hold k + 1022, the biased exponent of 2^k / 2.
+    const SHIFT: f64 = ROUND + 1022.0;
+    let shifted = fma::<FUSED>(x, std::f64::consts::LOG2_E, SHIFT);
+    let k = shifted - SHIFT;
+    let up = shifted.to_bits() << 52;
+    let down = f64::from_bits((2044_u64 << 52).wrapping_sub(up));
+    let up = f64::from_bits(up);
     let r = fma::<FUSED>(k, -LN2_LOW, fma::<FUSED>(k, -LN2_HIGH, x));
     let q = r * r;
-    let mut s = 1.0 / 6_227_020_800.0;
-    let mut c = 1.0 / 479_001_600.0;
-    for (odd, even) in [
-        (1.0 / 39_916_800.0, 1.0 / 3_628_800.0),
-        (1.0 / 362_880.0, 1.0 / 40_320.0),
-        (1.0 / 5_040.0, 1.0 / 720.0),
-        (1.0 / 120.0, 1.0 / 24.0),
-        (1.0 / 6.0, 0.5),
-    ] {
-        s = fma::<FUSED>(s, q, odd);
-        c = fma::<FUSED>(c, q, even);
+    let (mut s, mut c) = (SINH[4], COSH[4]);
+    for i in [3, 2, 1, 0] {
+        s = fma::<FUSED>(s, q, SINH[i]);
+        c = fma::<FUSED>(c, q, COSH[i]);
     }
     let sinh_r = fma::<FUSED>(s * q, r, r);
     let cosh_r = fma::<FUSED>(c, q, 1.0);
-    let (up, down) = (0.5 * power_of_two(bits), 0.5 * power_of_two(bits.wrapping_neg()));
     fma::<FUSED>(up - down, cosh_r, (up + down) * sinh_r)
 }
 
 /// sinh over the whole range of numbers.
 pub(crate) fn sinh(x: f64) -> f64 {
-    if x.abs() <= 700.0 { sinh_lane::<false>(x) } else { x.sinh() }
+    if x.abs() <= LARGEST { sinh_lane::<false>(x) } else { x.sinh() }
 }
 
-/// 1 / d for d in [1.7, 2.5]: a line and three steps of Newton, cheaper than a division.
+/// log2(1 + u) / u in powers of u, interpolated at the Chebyshev nodes of sqrt(1/2) <= 1 + u <= sqrt(2).
+const LOG2: [f64; 18] = [
+    1.442_695_040_888_961,
+    -0.721_347_520_444_474_4,
+    0.480_898_346_966_351_86,
+    -0.360_673_760_229_318_74,
+    0.288_539_007_445_984_6,
+    -0.240_449_171_765_410_1,
+    0.206_099_351_656_608_67,
+    -0.180_337_045_607_589_1,
+    0.160_297_077_506_528_47,
+    -0.144_261_731_585_146_88,
+    0.131_202_230_899_538_34,
+    -0.120_418_758_911_285_28,
+    0.110_514_334_454_355_37,
+    -0.100_446_529_340_712_09,
+    0.097_046_055_281_226_02,
+    -0.107_159_657_047_949_54,
+    0.100_976_951_025_871_06,
+    -0.046_943_209_524_542_81,
+];
+/// 2^r in powers of r, interpolated at the Chebyshev nodes of |r| <= 1/2.
+const EXP2: [f64; 11] = [
+    1.0,
+    std::f64::consts::LN_2,
+    0.240_226_506_959_100_97,
+    5.550_410_866_444_772e-2,
+    9.618_129_107_606_888e-3,
+    1.333_355_823_016_497_4e-3,
+    1.540_353_044_173_605e-4,
+    1.525_265_726_020_083_7e-5,
+    1.321_544_258_792_169e-6,
+    1.020_869_029_995_830_6e-7,
+    7.072_585_949_269_223e-9,
+];
+
+/// Coefficients `c[i] + c[i + 1] x` (those that there are), for evaluation in pairs.
 #[inline(always)]
-fn reciprocal<const FUSED: bool>(d: f64) -> f64 {
-    let mut y = fma::<FUSED>(d, -0.242_640_687, 0.994_821_5);
-    for _ in 0..3 {
-        y = fma::<FUSED>(y, fma::<FUSED>(-d, y, 1.0), y);
-    }
-    y
+fn pair<const FUSED: bool>(c: &[f64], i: usize, x: f64) -> f64 {
+    if i + 1 < c.len() { fma::<FUSED>(c[i + 1], x, c[i]) } else { c[i] }
 }
 
 /// `x^n` for x in [0, 2] and n in [0, 1000]: relative error below 1e-13 for n up to 10 where the result
@@ -71,34 +109,33 @@ fn reciprocal<const FUSED: bool>(d: f64) -> f64 {
 /// The polynomials are evaluated in pairs (Estrin): the lanes wait for each other's results otherwise.
 #[inline(always)]
 pub(super) fn power_lane<const FUSED: bool>(x: f64, n: f64) -> f64 {
-    // x = m 2^e with m in [sqrt(1/2), sqrt(2)).
+    // x = (1 + u) 2^e with 1 + u in [sqrt(1/2), sqrt(2)).
     let bits = x.to_bits();
     let shift = bits.wrapping_sub(0x3fe6_a09e_667f_3bcd) & 0xfff0_0000_0000_0000;
-    let m = f64::from_bits(bits.wrapping_sub(shift));
+    let u = f64::from_bits(bits.wrapping_sub(shift)) - 1.0;
     // The exponent as a number: its 12 bits placed in the mantissa of 2^52 (biased to stay positive).
-    let biased = (shift >> 52).wrapping_add(0x800) & 0xfff;
+    let biased = (shift ^ (1 << 63)) >> 52;
     let e = f64::from_bits(0x4330_0000_0000_0000 | biased) - 4_503_599_627_372_544.0;
-    // log2 m = 2 / ln 2 artanh t.
-    let t = (m - 1.0) * reciprocal::<FUSED>(m + 1.0);
-    let q = t * t;
-    let c = [1.0, 1.0 / 3.0, 0.2, 1.0 / 7.0, 1.0 / 9.0, 1.0 / 11.0, 1.0 / 13.0, 1.0 / 15.0, 1.0 / 17.0];
-    let q2 = q * q;
-    let q4 = q2 * q2;
-    let low = fma::<FUSED>(fma::<FUSED>(c[3], q, c[2]), q2, fma::<FUSED>(c[1], q, c[0]));
-    let high = fma::<FUSED>(fma::<FUSED>(c[7], q, c[6]), q2, fma::<FUSED>(c[5], q, c[4]));
-    let artanh = t * fma::<FUSED>(fma::<FUSED>(c[8], q4, high), q4, low);
-    let log2 = fma::<FUSED>(artanh, 2.0 * std::f64::consts::LOG2_E, e);
-    let y = (n * log2).max(-1000.0);
-    let (k, bits) = round(y);
-    let r = (y - k) * std::f64::consts::LN_2;
+    let c = |i: usize| pair::<FUSED>(&LOG2, i, u);
+    let u2 = u * u;
+    let u4 = u2 * u2;
+    let u8 = u4 * u4;
+    let quad = |i: usize| fma::<FUSED>(c(i + 2), u2, c(i));
+    let eight = |i: usize| fma::<FUSED>(quad(i + 4), u4, quad(i));
+    let upper = fma::<FUSED>(c(16), u8, eight(8));
+    let log2_over_u = fma::<FUSED>(upper, u8, eight(0));
+    let y = fma::<FUSED>(n * u, log2_over_u, n * e).max(-1000.0);
+    let shifted = y + ROUND;
+    let r = y - (shifted - ROUND);
+    let c = |i: usize| pair::<FUSED>(&EXP2, i, r);
     let r2 = r * r;
     let r4 = r2 * r2;
-    let pair = |odd: f64, even: f64| fma::<FUSED>(odd, r, even);
-    let low = fma::<FUSED>(pair(1.0 / 6.0, 0.5), r2, pair(1.0, 1.0));
-    let middle = fma::<FUSED>(pair(1.0 / 5_040.0, 1.0 / 720.0), r2, pair(1.0 / 120.0, 1.0 / 24.0));
-    let high =
-        fma::<FUSED>(pair(1.0 / 39_916_800.0, 1.0 / 3_628_800.0), r2, pair(1.0 / 362_880.0, 1.0 / 40_320.0));
-    fma::<FUSED>(fma::<FUSED>(high, r4, middle), r4, low) * power_of_two(bits)
+    let low = fma::<FUSED>(c(2), r2, c(0));
+    let middle = fma::<FUSED>(c(6), r2, c(4));
+    let high = fma::<FUSED>(c(10), r2, c(8));
+    let exp2 = fma::<FUSED>(fma::<FUSED>(high, r4, middle), r4, low);
+    // Times 2^k, by its exponent: the low bits of `shifted` are k.
+    f64::from_bits(exp2.to_bits().wrapping_add(shifted.to_bits() << 52))
 }
 
 #[cfg(test)]

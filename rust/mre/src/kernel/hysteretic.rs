@@ -34,6 +34,12 @@ impl Plan {
         Self { step, demand, largest }
     }
 
+    /// A plan with a quarter of the sub-steps: for a first look. RK4 stays stable.
+    pub(crate) fn rough(&self) -> Self {
+        let demand = self.demand.iter().map(|demand| 0.25 * demand).collect();
+        Self { step: self.step.clone(), demand, largest: 0.25 * self.largest }
+    }
+
     /// True where a candidate of this stiffness would need too many sub-steps.
     pub(super) fn too_coarse(&self, stiffness: f64) -> bool {
         let substeps = stiffness * self.largest;
@@ -49,24 +55,90 @@ pub(crate) fn stiffness([rho, sigma, n]: [f64; 3]) -> f64 {
     (rho * n * (2.0 * sigma - 1.0).max(1.0)).log2().ceil().exp2()
 }
 
-/// `dw/dt` of the normalised Bouc-Wen law.
+/// How `|w|^n` is computed. A lane's result does not depend on the choice, so that a candidate's value
+/// does not depend on the others beside it.
+pub(super) trait Power {
+    /// `x^n` for x in [0, 2].
+    fn power<const FUSED: bool>(x: f64, n: f64) -> f64;
+}
+
+/// For lanes that all have n = 1.
+pub(super) struct One;
+/// For lanes that all have n = 2.
+pub(super) struct Two;
+/// For any lanes.
+pub(super) struct Any;
+
+impl Power for One {
+    #[inline(always)]
+    fn power<const FUSED: bool>(x: f64, _: f64) -> f64 {
+        x
+    }
+}
+
+impl Power for Two {
+    #[inline(always)]
+    fn power<const FUSED: bool>(x: f64, _: f64) -> f64 {
+        x * x
+    }
+}
+
+impl Power for Any {
+    #[inline(always)]
+    fn power<const FUSED: bool>(x: f64, n: f64) -> f64 {
+        let power = power_lane::<FUSED>(x, n);
+        let power = if n == 2.0 { x * x } else { power };
+        if n == 1.0 { x } else { power }
+    }
+}
+
+/// Shapes side by side.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Shapes<const N: usize> {
+    pub(super) rho: [f64; N],
+    pub(super) sigma: [f64; N],
+    pub(super) n: [f64; N],
+}
+
+/// `dw/dt` of the normalised Bouc-Wen law at `w + share * slope`.
 #[inline(always)]
-fn rate<const FUSED: bool>(w: f64, v: f64, [rho, sigma, n]: [f64; 3]) -> f64 {
-    let p = power_lane::<FUSED>(w.abs().min(2.0), n);
-    let turn = fma::<FUSED>(sigma, v.abs().copysign(w) - v, v);
-    rho * fma::<FUSED>(-p, turn, v)
+fn rate<const FUSED: bool, P: Power, const N: usize>(
+    w: &[f64; N],
+    (share, slope): (&[f64; N], &[f64; N]),
+    v: &[f64; N],
+    shapes: &Shapes<N>,
+) -> [f64; N] {
+    let mut out = [0.0; N];
+    for l in 0..N {
+        let w = fma::<FUSED>(share[l], slope[l], w[l]);
+        let p = P::power::<FUSED>(w.abs().min(2.0), shapes.n[l]);
+        let turn = fma::<FUSED>(shapes.sigma[l], v[l].abs().copysign(w) - v[l], v[l]);
+        out[l] = shapes.rho[l] * fma::<FUSED>(-p, turn, v[l]);
+    }
+    out
 }
 
 /// RK4 over `h` with a velocity that goes linearly from `v0` to `v1`.
+///
+/// Stage by stage for all lanes: one lane after the other, the processor would wait for every result.
 #[inline(always)]
-pub(super) fn rk4<const FUSED: bool>(w: f64, v0: f64, v1: f64, h: f64, shape: [f64; 3]) -> f64 {
-    let middle = 0.5 * (v0 + v1);
-    let half = 0.5 * h;
-    let a = rate::<FUSED>(w, v0, shape);
-    let b = rate::<FUSED>(fma::<FUSED>(half, a, w), middle, shape);
-    let c = rate::<FUSED>(fma::<FUSED>(half, b, w), middle, shape);
-    let d = rate::<FUSED>(fma::<FUSED>(h, c, w), v1, shape);
-    fma::<FUSED>(h / 6.0, a + 2.0 * (b + c) + d, w)
+pub(super) fn rk4<const FUSED: bool, P: Power, const N: usize>(
+    w: &[f64; N],
+    (v0, v1): (&[f64; N], &[f64; N]),
+    h: &[f64; N],
+    shapes: &Shapes<N>,
+) -> [f64; N] {
+    let middle = std::array::from_fn(|l| 0.5 * (v0[l] + v1[l]));
+    let half = h.map(|h| 0.5 * h);
+    let a = rate::<FUSED, P, N>(w, (&[0.0; N], w), v0, shapes);
+    let b = rate::<FUSED, P, N>(w, (&half, &a), &middle, shapes);
+    let c = rate::<FUSED, P, N>(w, (&half, &b), &middle, shapes);
+    let d = rate::<FUSED, P, N>(w, (h, &c), v1, shapes);
+    let mut next = [0.0; N];
+    for l in 0..N {
+        next[l] = fma::<FUSED>(h[l] / 6.0, a[l] + 2.0 * (b[l] + c[l]) + d[l], w[l]);
+    }
+    next
 }
 
 /// The hysteretic variable at every sample, from rest; infinite throughout where the samples are too
@@ -78,16 +150,17 @@ pub(crate) fn trace(time: &[f64], velocity: &[f64], shape: [f64; 3], out: &mut [
         out.fill(f64::INFINITY);
         return;
     }
-    let mut w = 0.0;
-    out[0] = w;
+    let shapes = Shapes { rho: [shape[0]], sigma: [shape[1]], n: [shape[2]] };
+    let mut w = [0.0];
+    out[0] = w[0];
     for i in 0..plan.step.len() {
         let (v0, v1) = (velocity[i], velocity[i + 1]);
         let count = (stiffness * plan.demand[i]).ceil().max(1.0);
         let (h, dv) = (plan.step[i] / count, (v1 - v0) / count);
         for s in 0..count as usize {
             let start = v0 + dv * s as f64;
-            w = rk4::<false>(w, start, start + dv, h, shape);
+            w = rk4::<false, Any, 1>(&w, (&[start], &[start + dv]), &[h], &shapes);
         }
-        out[i + 1] = w;
+        out[i + 1] = w[0];
     }
 }

@@ -1,6 +1,6 @@
 //! Hysteretic variables of several candidates side by side, one SIMD lane each.
 
-use super::hysteretic::{Plan, rk4, stiffness};
+use super::hysteretic::{Any, One, Plan, Power, Shapes, Two, rk4, stiffness};
 
 /// Candidates simulated side by side.
 pub(crate) const LANES: usize = 16;
@@ -8,11 +8,11 @@ pub(crate) const LANES: usize = 16;
 /// Shapes of the candidates.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Lanes {
-    rho: [f64; LANES],
-    sigma: [f64; LANES],
-    n: [f64; LANES],
+    shapes: Shapes<LANES>,
     stiffness: [f64; LANES],
     stiffest: f64,
+    /// The exponent, if all lanes have the same.
+    common: Option<f64>,
     /// Lanes that cannot be simulated: their variable stays at rest.
     pub(super) hopeless: [bool; LANES],
 }
@@ -21,8 +21,16 @@ impl Lanes {
     /// Up to [`LANES`] shapes `[rho, sigma, n]`; the last one fills the rest.
     pub(super) fn new(plan: &Plan, shapes: impl Fn(usize) -> [f64; 3]) -> Self {
         let shapes: [[f64; 3]; LANES] = std::array::from_fn(shapes);
+        Self::with_stiffness(plan, &shapes, shapes.map(stiffness))
+    }
+
+    /// Shapes whose sub-steps follow from a given stiffness.
+    pub(super) fn with_stiffness(
+        plan: &Plan,
+        shapes: &[[f64; 3]; LANES],
+        mut stiffness: [f64; LANES],
+    ) -> Self {
         let mut rho = shapes.map(|shape| shape[0]);
-        let mut stiffness = shapes.map(stiffness);
         let hopeless = stiffness.map(|s| plan.too_coarse(s));
         for l in 0..LANES {
             if hopeless[l] {
@@ -31,7 +39,8 @@ impl Lanes {
         }
         let stiffest = stiffness.iter().copied().fold(0.0, f64::max);
         let (sigma, n) = (shapes.map(|shape| shape[1]), shapes.map(|shape| shape[2]));
-        Self { rho, sigma, n, stiffness, stiffest, hopeless }
+        let common = n.iter().all(|other| *other == n[0]).then_some(n[0]);
+        Self { shapes: Shapes { rho, sigma, n }, common, stiffness, stiffest, hopeless }
     }
 
     /// From one sample to the next, over `h` with a velocity that goes linearly from `v0` to `v1`.
@@ -39,22 +48,35 @@ impl Lanes {
     pub(super) fn advance<const FUSED: bool>(
         &self,
         w: &mut [f64; LANES],
+        velocity: (f64, f64),
+        h: f64,
+        demand: f64,
+    ) {
+        match self.common {
+            Some(1.0) => self.advance_by::<FUSED, One>(w, velocity, h, demand),
+            Some(2.0) => self.advance_by::<FUSED, Two>(w, velocity, h, demand),
+            _ => self.advance_by::<FUSED, Any>(w, velocity, h, demand),
+        }
+    }
+
+    #[inline(always)]
+    fn advance_by<const FUSED: bool, P: Power>(
+        &self,
+        w: &mut [f64; LANES],
         (v0, v1): (f64, f64),
         h: f64,
         demand: f64,
     ) {
         if self.stiffest * demand <= 1.0 {
-            for l in 0..LANES {
-                w[l] = rk4::<FUSED>(w[l], v0, v1, h, [self.rho[l], self.sigma[l], self.n[l]]);
-            }
+            *w = rk4::<FUSED, P, LANES>(w, (&[v0; LANES], &[v1; LANES]), &[h; LANES], &self.shapes);
         } else {
-            self.advance_in_substeps::<FUSED>(w, (v0, v1), h, demand);
+            self.advance_in_substeps::<FUSED, P>(w, (v0, v1), h, demand);
         }
     }
 
     /// Every lane takes the number of sub-steps it needs by itself; those that are done wait.
     #[inline(always)]
-    fn advance_in_substeps<const FUSED: bool>(
+    fn advance_in_substeps<const FUSED: bool, P: Power>(
         &self,
         w: &mut [f64; LANES],
         (v0, v1): (f64, f64),
@@ -69,12 +91,16 @@ impl Lanes {
         }
         for s in 0..most as usize {
             let done = s as f64;
+            let (mut start, mut end, mut step) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
             for l in 0..LANES {
                 let dv = (v1 - v0) / count[l];
-                let start = v0 + dv * done;
-                let shape = [self.rho[l], self.sigma[l], self.n[l]];
-                let next = rk4::<FUSED>(w[l], start, start + dv, h / count[l], shape);
-                w[l] = if done < count[l] { next } else { w[l] };
+                start[l] = v0 + dv * done;
+                end[l] = start[l] + dv;
+                step[l] = h / count[l];
+            }
+            let next = rk4::<FUSED, P, LANES>(w, (&start, &end), &step, &self.shapes);
+            for l in 0..LANES {
+                w[l] = if done < count[l] { next[l] } else { w[l] };
             }
         }
     }

@@ -11,12 +11,15 @@ pub(crate) mod bouc_wen_gram;
 mod bouc_wen_rk4;
 mod dispatch;
 pub(crate) mod elementary;
+#[cfg(test)]
+mod example;
 pub(crate) mod filter;
 pub(crate) mod hysteretic;
 mod lanes;
 mod sinh;
 pub(crate) mod sinh_compressed;
 mod sinh_direct;
+mod total;
 pub(crate) mod triangle;
 
 pub(crate) use bouc_wen_rk4::BoucWenRk4;

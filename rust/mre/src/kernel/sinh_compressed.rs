@@ -260,30 +260,21 @@ fn fill_generic<const FUSED: bool>(leaf: &Leaf<'_>, samples: Range<usize>, block
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use crate::recording::{Condition, Series};
+    use crate::kernel::example;
 
     #[test]
     fn every_instruction_set_gives_the_same() {
-        let time: Vec<f64> = (0..500).map(|i| f64::from(i) / 100.0).collect();
-        let displacement: Vec<f64> = time.iter().map(|t| 4.0 * (6.0 * t).sin()).collect();
-        let force = displacement.iter().zip(&time).map(|(x, t)| 9.0 * x.sinh() + (70.0 * t).sin()).collect();
-        let condition = Condition::Missing;
-        let recording = Recording::new(Series {
-            time,
-            displacement,
-            velocity: None,
-            force: Some(force),
-            simulated: None,
-            current: condition.clone(),
-            temperature: condition,
-            name: String::new(),
-        });
-        let best = SinhCompressed::new(&[Arc::new(recording.unwrap())], &[0.002], 1.0).unwrap();
-        let plain = SinhCompressed { isa: Isa::Plain, ..best.clone() };
+        let best = SinhCompressed::new(&[example::recording()], &[0.002], 1.0).unwrap();
         let rows = [0.1, 2.0, 8.0, 0.98, 0.3, 0.0, 0.0, 9.0, 1.0, 0.0, 0.0, 5.0, -3.0, 0.1, 4.0];
-        let (mut one, mut other) = ([0.0; 3], [0.0; 3]);
-        best.sums_of_squares(&rows, &mut one);
-        plain.sums_of_squares(&rows, &mut other);
-        assert!(one.iter().zip(other).all(|(a, b)| (a - b).abs() <= 1e-12 * b), "{one:?} {other:?}");
+        let costs = |isa| {
+            let mut costs = [0.0; 3];
+            SinhCompressed { isa, ..best.clone() }.sums_of_squares(&rows, &mut costs);
+            costs
+        };
+        let plain = costs(Isa::Plain);
+        for isa in dispatch::available() {
+            let found = costs(isa);
+            assert!(found.iter().zip(plain).all(|(a, b)| (a - b).abs() <= 1e-12 * b), "{isa:?} {found:?}");
+        }
     }
 }

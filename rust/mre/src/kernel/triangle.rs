@@ -5,6 +5,7 @@
 
 use super::dispatch::{self, Isa, for_every_isa};
 use super::elementary::fma;
+use super::total::total;
 
 /// Rows worked in at once: 14 columns of them fit the first cache.
 pub(crate) const ROWS: usize = 256;
@@ -111,21 +112,7 @@ fn dot<const FUSED: bool>(a: &[f64], b: &[f64]) -> f64 {
             sums[l] = fma::<FUSED>(a[l], b[l], sums[l]);
         }
     }
-    total(sums)
-}
-
-/// Sum in pairs. A call, because the compiler would give the loop before it the narrow lanes of the
-/// last pairs.
-#[inline(never)]
-fn total(mut sums: [f64; LANES]) -> f64 {
-    let mut width = LANES / 2;
-    while width > 0 {
-        for l in 0..width {
-            sums[l] += sums[l + width];
-        }
-        width /= 2;
-    }
-    sums[0]
+    total(&mut sums)
 }
 
 #[cfg(test)]

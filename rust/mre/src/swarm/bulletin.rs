@@ -55,6 +55,18 @@ pub struct History {
 }
 
 impl History {
+    /// Room for the swarm as it starts and so many iterations.
+    pub(super) fn with_room(iterations: usize) -> Self {
+        let room = iterations + 1;
+        Self {
+            best: Vec::with_capacity(room),
+            mean: Vec::with_capacity(room),
+            evaluations: Vec::with_capacity(room),
+            range: Vec::with_capacity(room),
+            step: Vec::with_capacity(room),
+        }
+    }
+
     pub(super) fn record(&mut self, bulletin: &Bulletin, costs: &[f64], range: f64, step: f64) {
         let (sum, count) =
             costs.iter().filter(|c| c.is_finite()).fold((0.0, 0_u32), |(sum, count), c| (sum + c, count + 1));

@@ -3,20 +3,20 @@
 
 use super::random::{around, towards};
 use super::search::{self, Outcome, Wait};
-use super::swarming::{self, Centres};
+use super::swarming::Centres;
 use super::view::{View, food};
 use super::{Behaviours, Bulletin, FishSettings, History, Stream, Swarm, follow};
 use crate::error::Result;
 
 /// What the rows asked for are.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Copy)]
 enum Stage {
     /// The initial positions.
     Hatch,
     /// Centres that swarming fish think of heading for.
-    Centres(Centres),
+    Centres,
     /// Looks and arrivals, fish by fish.
-    Acts(Vec<(usize, Wait)>),
+    Acts,
 }
 
 /// A swarm of artificial fish.
@@ -32,6 +32,13 @@ pub struct FishSwarm {
     iteration: usize,
     stage: Stage,
     rows: Vec<f64>,
+    /// Fish that wait for costs, in the order of the rows.
+    waiting: Vec<(usize, Wait)>,
+    centres: Centres,
+    /// Buffers, so that iterations do not allocate: rows, fish and costs while they are worked on.
+    told: Vec<f64>,
+    waited: Vec<(usize, Wait)>,
+    known: Vec<f64>,
     bulletin: Bulletin,
     history: History,
     behaviours: Behaviours,
@@ -52,16 +59,24 @@ impl FishSwarm {
         if let Some(start) = start {
             rows[..dimension].copy_from_slice(start);
         }
+        let positions = rows.clone();
+        let room = settings.fish * search::most_rows(&settings);
+        rows.reserve_exact(room * dimension - rows.len());
         Ok(Self {
-            positions: rows.clone(),
+            positions,
             costs: vec![f64::INFINITY; settings.fish],
             visual: settings.visual,
             step: settings.step,
             iteration: 0,
             stage: Stage::Hatch,
             rows,
+            told: Vec::with_capacity(room * dimension),
+            waiting: Vec::with_capacity(settings.fish),
+            waited: Vec::with_capacity(settings.fish),
+            centres: Centres::default(),
+            known: Vec::with_capacity(room),
             bulletin: Bulletin::new(dimension),
-            history: History::default(),
+            history: History::with_room(settings.iterations),
             behaviours: Behaviours::default(),
             settings,
             dimension,
@@ -98,101 +113,103 @@ impl FishSwarm {
             (self.visual, self.step),
         );
         let mean = self.mean_food();
-        let centres = swarming::centres(&self.view(), |fish| food(self.costs[fish]) > mean);
-        if centres.rows.is_empty() {
-            self.choose(&centres, &[]);
+        let mut centres = std::mem::take(&mut self.centres);
+        centres.find(&self.view(), |fish| food(self.costs[fish]) > mean);
+        self.rows.extend_from_slice(&centres.rows);
+        self.centres = centres;
+        if self.rows.is_empty() {
+            self.choose(&[]);
         } else {
-            self.rows.extend_from_slice(&centres.rows);
-            self.stage = Stage::Centres(centres);
+            self.stage = Stage::Centres;
         }
     }
 
     /// Every fish chooses its behaviour by its energy (section 3.1.4).
-    fn choose(&mut self, centres: &Centres, centre_costs: &[f64]) {
+    fn choose(&mut self, centre_costs: &[f64]) {
         let mean = self.mean_food();
-        let mut acts = Vec::with_capacity(self.settings.fish);
-        self.rows.clear();
+        let mut rows = std::mem::take(&mut self.rows);
+        rows.clear();
+        self.waiting.clear();
         for fish in 0..self.settings.fish {
-            let own = food(self.costs[fish]);
-            let view = self.view();
-            let target = if own < mean {
-                follow::target(&view, fish, &self.settings).map(<[f64]>::to_vec)
-            } else {
-                centres.target(&view, centre_costs, fish, &self.settings).map(<[f64]>::to_vec)
+            let follows = food(self.costs[fish]) < mean;
+            let view = View {
+                positions: &self.positions,
+                costs: &self.costs,
+                dimension: self.dimension,
+                visual: self.visual,
+                neighbourhood: self.settings.neighbourhood,
             };
-            if let Some(target) = target {
-                let counter =
-                    if own < mean { &mut self.behaviours.follow } else { &mut self.behaviours.swarm };
+            let target = if follows {
+                follow::target(&view, fish, &self.settings)
+            } else {
+                self.centres.target(&view, centre_costs, fish, &self.settings)
+            };
+            let wait = if let Some(target) = target {
+                let counter = if follows { &mut self.behaviours.follow } else { &mut self.behaviours.swarm };
                 *counter += 1;
-                self.go_towards(fish, &target);
-                acts.push((fish, Wait::Arrival));
+                towards(view.position(fish), target, self.step, &mut self.streams[fish], &mut rows);
+                Wait::Arrival
             } else {
                 let wait = search::first_round(&self.settings);
-                self.look(fish, wait);
-                acts.push((fish, wait));
-            }
+                look(wait, view.position(fish), self.visual, &mut self.streams[fish], &mut rows);
+                wait
+            };
+            self.waiting.push((fish, wait));
         }
-        self.stage = Stage::Acts(acts);
+        self.rows = rows;
+        self.stage = Stage::Acts;
     }
 
     fn position(&self, fish: usize) -> std::ops::Range<usize> {
         fish * self.dimension..(fish + 1) * self.dimension
     }
 
-    fn look(&mut self, fish: usize, wait: Wait) {
-        if let Wait::Looks { count, .. } = wait {
-            let own = &self.positions[self.position(fish)];
-            for _ in 0..count {
-                around(own, self.visual, &mut self.streams[fish], &mut self.rows);
-            }
-        }
-    }
-
-    fn go_towards(&mut self, fish: usize, target: &[f64]) {
-        let own = &self.positions[self.position(fish)];
-        towards(own, target, self.step, &mut self.streams[fish], &mut self.rows);
-    }
-
     /// Fish that know their costs move, look again, or are done.
-    fn act(&mut self, acts: &[(usize, Wait)], costs: &[f64]) {
-        let rows = std::mem::take(&mut self.rows);
-        let mut next = Vec::new();
+    fn act(&mut self, costs: &[f64]) {
+        std::mem::swap(&mut self.rows, &mut self.told);
+        std::mem::swap(&mut self.waiting, &mut self.waited);
+        self.rows.clear();
+        self.waiting.clear();
+        let (told, waited) = (std::mem::take(&mut self.told), std::mem::take(&mut self.waited));
         let mut row = 0;
-        for &(fish, wait) in acts {
+        for &(fish, wait) in &waited {
             let Wait::Looks { count, before } = wait else {
-                self.stand(fish, &rows[row * self.dimension..], costs[row]);
+                self.stand(fish, &told[row * self.dimension..], costs[row]);
                 row += 1;
                 continue;
             };
-            let at = |look: usize| &rows[(row + look) * self.dimension..(row + look + 1) * self.dimension];
-            match search::judge(&costs[row..row + count], before, self.costs[fish], &self.settings) {
+            let at = |look: usize| &told[(row + look) * self.dimension..(row + look + 1) * self.dimension];
+            let outcome = search::judge(&costs[row..row + count], before, self.costs[fish], &self.settings);
+            let own = &self.positions[self.position(fish)];
+            let (stream, rows) = (&mut self.streams[fish], &mut self.rows);
+            let next = match outcome {
                 Outcome::Jump(look) => {
                     self.behaviours.search += 1;
                     self.stand(fish, at(look), costs[row + look]);
+                    None
                 }
                 Outcome::StepTowards(look) => {
                     self.behaviours.search += 1;
-                    self.go_towards(fish, at(look));
-                    next.push((fish, Wait::Arrival));
+                    towards(own, at(look), self.step, stream, rows);
+                    Some(Wait::Arrival)
                 }
                 Outcome::LookAgain => {
                     let wait = Wait::Looks { count, before: before + count };
-                    self.look(fish, wait);
-                    next.push((fish, wait));
+                    look(wait, own, self.visual, stream, rows);
+                    Some(wait)
                 }
                 Outcome::GiveUp => {
                     self.behaviours.random += 1;
-                    let own = &self.positions[self.position(fish)];
-                    around(own, self.step, &mut self.streams[fish], &mut self.rows);
-                    next.push((fish, Wait::Arrival));
+                    around(own, self.step, stream, rows);
+                    Some(Wait::Arrival)
                 }
-            }
+            };
+            self.waiting.extend(next.map(|wait| (fish, wait)));
             row += count;
         }
-        if next.is_empty() {
+        (self.told, self.waited) = (told, waited);
+        if self.waiting.is_empty() {
             self.begin_iteration();
-        } else {
-            self.stage = Stage::Acts(next);
         }
     }
 
@@ -203,22 +220,34 @@ impl FishSwarm {
     }
 }
 
+/// Looks of one fish, if it waits for some.
+fn look(wait: Wait, own: &[f64], visual: f64, stream: &mut Stream, rows: &mut Vec<f64>) {
+    if let Wait::Looks { count, .. } = wait {
+        for _ in 0..count {
+            around(own, visual, stream, rows);
+        }
+    }
+}
+
 impl Swarm for FishSwarm {
     fn ask(&self) -> &[f64] {
         &self.rows
     }
 
     fn tell(&mut self, costs: &[f64]) {
-        let costs: Vec<f64> = costs.iter().map(|c| if c.is_nan() { f64::INFINITY } else { *c }).collect();
-        self.bulletin.note(&self.rows, &costs);
-        match std::mem::replace(&mut self.stage, Stage::Hatch) {
+        let mut known = std::mem::take(&mut self.known);
+        known.clear();
+        known.extend(costs.iter().map(|c| if c.is_nan() { f64::INFINITY } else { *c }));
+        self.bulletin.note(&self.rows, &known);
+        match self.stage {
             Stage::Hatch => {
-                self.costs = costs;
+                self.costs.copy_from_slice(&known);
                 self.begin_iteration();
             }
-            Stage::Centres(centres) => self.choose(&centres, &costs),
-            Stage::Acts(acts) => self.act(&acts, &costs),
+            Stage::Centres => self.choose(&known),
+            Stage::Acts => self.act(&known),
         }
+        self.known = known;
     }
 
     fn tell_some(&mut self, costs: &[f64]) {

@@ -18,6 +18,8 @@ pub struct ParticleSwarm {
     best_costs: Vec<f64>,
     iteration: usize,
     finished: bool,
+    /// Costs told last, NaN replaced.
+    known: Vec<f64>,
     bulletin: Bulletin,
     history: History,
 }
@@ -44,8 +46,9 @@ impl ParticleSwarm {
             best_costs: vec![f64::INFINITY; settings.particles],
             iteration: 0,
             finished: false,
+            known: Vec::new(),
             bulletin: Bulletin::new(dimension),
-            history: History::default(),
+            history: History::with_room(settings.iterations),
             settings,
             dimension,
             streams,
@@ -87,16 +90,19 @@ impl Swarm for ParticleSwarm {
     }
 
     fn tell(&mut self, costs: &[f64]) {
-        let costs: Vec<f64> = costs.iter().map(|c| if c.is_nan() { f64::INFINITY } else { *c }).collect();
-        self.bulletin.note(&self.positions, &costs);
-        for (particle, cost) in costs.iter().enumerate() {
+        let mut known = std::mem::take(&mut self.known);
+        known.clear();
+        known.extend(costs.iter().map(|c| if c.is_nan() { f64::INFINITY } else { *c }));
+        self.bulletin.note(&self.positions, &known);
+        for (particle, cost) in known.iter().enumerate() {
             if *cost < self.best_costs[particle] {
                 self.best_costs[particle] = *cost;
                 let range = particle * self.dimension..(particle + 1) * self.dimension;
                 self.best_positions[range.clone()].copy_from_slice(&self.positions[range]);
             }
         }
-        self.history.record(&self.bulletin, &costs, self.inertia(), self.settings.speed);
+        self.history.record(&self.bulletin, &known, self.inertia(), self.settings.speed);
+        self.known = known;
         if self.iteration == self.settings.iterations {
             self.finished = true;
         } else {

@@ -99,6 +99,7 @@ pub fn run(
             return StopReason::Evaluations;
         }
         costs.clear();
+        costs.reserve(count.next_power_of_two()); // generations differ a little in size
         costs.resize(count, f64::INFINITY);
         evaluate(&rows[..count * dimension], &mut costs);
         let broken_off = monitor.broken_off();

@@ -37,6 +37,14 @@ pub(super) fn first_round(settings: &FishSettings) -> Wait {
     }
 }
 
+/// Rows that a fish asks for at once, at most.
+pub(super) fn most_rows(settings: &FishSettings) -> usize {
+    match first_round(settings) {
+        Wait::Looks { count, .. } => count.max(1),
+        Wait::Arrival => 1,
+    }
+}
+
 /// Judge looks by their costs against the cost where the fish stands.
 pub(super) fn judge(costs: &[f64], before: usize, own: f64, settings: &FishSettings) -> Outcome {
     let mut best = 0;

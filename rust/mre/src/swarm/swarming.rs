@@ -12,32 +12,33 @@ pub(super) struct Centres {
     pub(super) of_fish: Vec<Option<usize>>,
 }
 
-/// Centres for the fish that want to swarm.
-pub(super) fn centres(view: &View, wants: impl Fn(usize) -> bool) -> Centres {
-    let mut centres = Centres { rows: Vec::new(), of_fish: vec![None; view.costs.len()] };
-    let mut count = 0;
-    for fish in (0..view.costs.len()).filter(|fish| wants(*fish)) {
-        match view.neighbourhood {
-            Neighbourhood::Swarm => {
-                if count == 0 {
-                    centres.rows = view.centre();
-                    count = 1;
+impl Centres {
+    /// Centres for the fish that want to swarm, in place of those before.
+    pub(super) fn find(&mut self, view: &View, wants: impl Fn(usize) -> bool) {
+        self.rows.clear();
+        self.rows.reserve(view.positions.len());
+        self.of_fish.clear();
+        self.of_fish.resize(view.costs.len(), None);
+        let mut count = 0;
+        for fish in (0..view.costs.len()).filter(|fish| wants(*fish)) {
+            match view.neighbourhood {
+                Neighbourhood::Swarm => {
+                    if count == 0 {
+                        view.push_centre(&mut self.rows);
+                        count = 1;
+                    }
+                    self.of_fish[fish] = Some(0);
                 }
-                centres.of_fish[fish] = Some(0);
-            }
-            Neighbourhood::Visual => {
-                if let Some(centre) = view.centre_within_sight(fish) {
-                    centres.rows.extend(centre);
-                    centres.of_fish[fish] = Some(count);
-                    count += 1;
+                Neighbourhood::Visual => {
+                    if view.push_centre_within_sight(fish, &mut self.rows) {
+                        self.of_fish[fish] = Some(count);
+                        count += 1;
+                    }
                 }
             }
         }
     }
-    centres
-}
 
-impl Centres {
     /// Where a swarming fish heads for; `None` where the place is too crowded or there is no fellow.
     pub(super) fn target(
         &self,

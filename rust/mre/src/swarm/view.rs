@@ -56,28 +56,32 @@ impl<'a> View<'a> {
         }
     }
 
-    /// Centre of the fellows within sight, if there are any.
-    pub(super) fn centre_within_sight(&self, fish: usize) -> Option<Vec<f64>> {
-        let mut centre = vec![0.0; self.dimension];
-        let mut count = 0.0;
-        for other in self.within_sight(fish) {
-            count += 1.0;
-            for (sum, x) in centre.iter_mut().zip(self.position(other)) {
-                *sum += x;
-            }
-        }
-        (count > 0.0).then(|| centre.iter().map(|sum| sum / count).collect())
+    /// Add the centre of the fellows within sight to the rows; false if there are none.
+    pub(super) fn push_centre_within_sight(&self, fish: usize, rows: &mut Vec<f64>) -> bool {
+        self.push_mean(self.within_sight(fish), rows)
     }
 
-    /// Centre of the whole swarm.
-    pub(super) fn centre(&self) -> Vec<f64> {
-        let mut centre = vec![0.0; self.dimension];
-        for position in self.positions.chunks_exact(self.dimension) {
-            for (sum, x) in centre.iter_mut().zip(position) {
+    /// Add the centre of the whole swarm to the rows.
+    pub(super) fn push_centre(&self, rows: &mut Vec<f64>) {
+        self.push_mean(0..self.costs.len(), rows);
+    }
+
+    fn push_mean(&self, fellows: impl Iterator<Item = usize>, rows: &mut Vec<f64>) -> bool {
+        let first = rows.len();
+        rows.resize(first + self.dimension, 0.0);
+        let mut count = 0.0;
+        for fellow in fellows {
+            count += 1.0;
+            for (sum, x) in rows[first..].iter_mut().zip(self.position(fellow)) {
                 *sum += x;
             }
         }
-        centre.iter().map(|sum| sum / self.costs.len() as f64).collect()
+        if count == 0.0 {
+            rows.truncate(first);
+            return false;
+        }
+        rows[first..].iter_mut().for_each(|sum| *sum /= count);
+        true
     }
 }
 
