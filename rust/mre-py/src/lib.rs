@@ -13,6 +13,7 @@ mod recording;
 mod run;
 mod settings;
 mod swarm;
+mod uncertainty;
 
 #[pymodule]
 mod _core {
@@ -28,6 +29,8 @@ mod _core {
     use crate::recording::Recording;
     #[pymodule_export]
     use crate::swarm::{Swarm, inertia_weight, uniforms};
+    #[pymodule_export]
+    use crate::uncertainty::{fit_bootstrap, fit_profile, fit_uncertainty};
 
     use super::{Bound, PyModule, PyModuleMethods, PyResult};
 

@@ -6,4 +6,5 @@ mod descent;
 mod projection;
 mod solve;
 
+pub(crate) use solve::refit;
 pub use solve::{Fit, exact, hybrid};

@@ -1,0 +1,148 @@
+//! What is not determined, in words.
+
+use super::derived::{Cycle, combinations};
+use super::{Estimate, Local};
+
+/// Larger amplitudes that are tried, as shares of the tested one.
+const FACTORS: [f64; 6] = [1.5, 2.0, 3.0, 4.0, 6.0, 8.0];
+/// Relative standard error that counts as good.
+const GOOD: f64 = 0.1;
+
+/// Sentences; none where every parameter is determined.
+pub(super) fn words(
+    local: &Local<'_>,
+    parameters: &[Estimate],
+    derived: &[Estimate],
+    cycle: Cycle,
+) -> Vec<String> {
+    let bad: Vec<usize> = (0..parameters.len()).filter(|j| !parameters[*j].determined).collect();
+    if bad.is_empty() {
+        return Vec::new();
+    }
+    let names: Vec<&str> = bad.iter().map(|j| parameters[*j].name.as_str()).collect();
+    let verb = if names.len() > 1 { "each are" } else { "is" };
+    let mut first = format!("at {:.3} mm ", Short(cycle.amplitude));
+    let known = determined_combinations(local, parameters, derived);
+    if known.is_empty() {
+        first += &format!("{} {verb} not determined", names.join(", "));
+    } else {
+        let count = if known.len() > 1 { "are" } else { "is" };
+        first += &format!("only {} {count} determined; {} {verb} not", known.join(" and "), names.join(", "));
+    }
+    if let Some(amplitude) = cure(local, &bad, cycle) {
+        first +=
+            &format!(": {} {:.3} mm test would fix {}", article(amplitude), Short(amplitude), them(&names));
+    }
+    let mut out = vec![first];
+    out.extend(weakest(local, parameters));
+    out
+}
+
+fn them(names: &[&str]) -> &'static str {
+    if names.len() > 1 { "them" } else { "it" }
+}
+
+/// "an 8 mm test", "a 4 mm test".
+fn article(number: f64) -> &'static str {
+    let text = format!("{:.3}", Short(number));
+    let whole = text.split('.').next().unwrap_or_default();
+    if text.starts_with('8') || whole == "11" || whole == "18" { "an" } else { "a" }
+}
+
+/// Determined combinations with a member that is not.
+fn determined_combinations(local: &Local<'_>, parameters: &[Estimate], derived: &[Estimate]) -> Vec<String> {
+    let plain = |name: &str| name.split(['(', ' ']).next().unwrap_or_default().to_owned();
+    let involved = |members: &[&str]| {
+        parameters.iter().any(|p| !p.determined && members.contains(&plain(&p.name).as_str()))
+    };
+    let formulas = combinations(local.problem.model().name());
+    derived
+        .iter()
+        .filter(|d| d.determined)
+        .filter(|d| formulas.iter().any(|c| d.name.starts_with(c.name) && involved(c.members)))
+        .map(|d| d.name.clone())
+        .collect()
+}
+
+/// The smallest larger amplitude at which the same test would determine what this one does not.
+fn cure(local: &Local<'_>, bad: &[usize], cycle: Cycle) -> Option<f64> {
+    // On a bound the values say nothing about what a larger test would see.
+    let sides = local.problem.bounds().on_bound(local.values);
+    let places: Option<Vec<usize>> =
+        bad.iter().map(|j| local.free.iter().position(|i| i == j).filter(|_| sides[*j] == 0)).collect();
+    let places = places?;
+    let good = |errors: &[f64]| {
+        places.iter().all(|place| {
+            let value = local.values[local.free[*place]].abs();
+            errors[*place] < GOOD * value
+        })
+    };
+    FACTORS
+        .into_iter()
+        .find(|factor| local.at_amplitude(*factor).is_some_and(|errors| good(&errors)))
+        .map(|factor| factor * cycle.amplitude)
+}
+
+/// The change of the parameters that the recordings see least of.
+fn weakest(local: &Local<'_>, parameters: &[Estimate]) -> Option<String> {
+    let (direction, rms) = local.tangents.weakest();
+    let relative: Vec<f64> =
+        local.free.iter().zip(&direction).map(|(j, d)| d / local.values[*j].abs()).collect();
+    let largest = relative
+        .iter()
+        .zip(&local.free)
+        .filter(|(r, j)| r.is_finite() && !parameters[**j].determined)
+        .map(|(r, _)| *r)
+        .max_by(|a, b| a.abs().total_cmp(&b.abs()))?;
+    let step = 0.1 / largest;
+    let changes: Vec<String> = relative
+        .iter()
+        .zip(&local.free)
+        .filter(|(r, _)| (*r * step).abs() > 0.01 && r.is_finite())
+        .map(|(r, j)| format!("{} {:+.2} %", parameters[*j].name, Short(100.0 * r * step)))
+        .collect();
+    (changes.len() > 1).then(|| {
+        format!("{} together change the force by {:.2} N rms", changes.join(", "), Short((rms * step).abs()))
+    })
+}
+
+/// A number with as many significant digits as the precision says.
+struct Short(f64);
+
+impl std::fmt::Display for Short {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let digits = f.precision().unwrap_or(3) as i32;
+        let size = if self.0 == 0.0 { 0 } else { self.0.abs().log10().floor() as i32 };
+        let text = if (-4..6).contains(&size) {
+            let text = format!("{:.*}", (digits - 1 - size).max(0) as usize, self.0);
+            if text.contains('.') {
+                text.trim_end_matches('0').trim_end_matches('.').to_owned()
+            } else {
+                text
+            }
+        } else {
+            format!("{:.*e}", (digits - 1) as usize, self.0)
+        };
+        if f.sign_plus() && self.0 >= 0.0 { write!(f, "+{text}") } else { f.write_str(&text) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn short_numbers() {
+        let cases =
+            [(8.0, "8"), (12.3456, "12.3"), (0.012_345, "0.0123"), (1234.5, "1234"), (1e-9, "1.00e-9")];
+        for (number, text) in cases {
+            assert_eq!(format!("{:.3}", Short(number)), text);
+        }
+        assert_eq!(format!("{:+.2}", Short(3.14)), "+3.1");
+    }
+
+    #[test]
+    fn articles() {
+        assert_eq!([8.0, 4.0, 11.0, 18.0, 80.0, 110.0].map(article), ["an", "a", "an", "an", "an", "a"]);
+    }
+}
