@@ -12,9 +12,12 @@ from .load import from_dataframe, load
 from .model import Level, Model, simulate
 from .results import Parameter, StopReason, SwarmResult
 from .swarms import afsa, mafsa, pso
+from .uncertainty import Bootstrap, Estimate, Profile, Uncertainty, bootstrap, profile, uncertainty
 
 __all__ = [
     "AskTell",
+    "Bootstrap",
+    "Estimate",
     "ExtrapolationWarning",
     "Fit",
     "Identification",
@@ -24,12 +27,15 @@ __all__ = [
     "MreError",
     "Parameter",
     "Problem",
+    "Profile",
     "Recording",
     "StopReason",
     "SwarmResult",
+    "Uncertainty",
     "UnitAssumedWarning",
     "__version__",
     "afsa",
+    "bootstrap",
     "exact",
     "from_dataframe",
     "hybrid",
@@ -38,6 +44,8 @@ __all__ = [
     "load",
     "mafsa",
     "models",
+    "profile",
     "pso",
     "simulate",
+    "uncertainty",
 ]

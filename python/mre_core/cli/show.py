@@ -1,6 +1,6 @@
 """What a person sees: progress on a terminal, tables on standard output."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
@@ -8,6 +8,8 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from ..identify import Identification
+    from ..results import SwarmResult
+    from ..uncertainty import Bootstrap, Profile
 
 OnLevel = Callable[[int, int, float | None], None]
 OnProgress = Callable[[int, int, float], None]
@@ -51,17 +53,27 @@ def progress(iterations: int, *, quiet: bool) -> Iterator[tuple[OnLevel, OnProgr
         yield on_level, on_progress
 
 
-def print_identification(found: "Identification") -> None:
-    """Tables of the parameters and of the fit."""
+def print_identification(
+    found: "Identification",
+    profiles: Sequence[Sequence["Profile"]] = (),
+    bootstraps: Sequence["Bootstrap"] = (),
+) -> None:
+    """Tables of the parameters and of the fit; profiles and bootstraps are one a run, or none."""
     from rich.table import Table
 
     out = console()
-    for run, level in zip(found.runs, _titles(found), strict=True):
+    for i, (run, level) in enumerate(zip(found.runs, _titles(found), strict=True)):
+        intervals = _intervals(run, profiles[i] if profiles else (), bootstraps[i] if bootstraps else None)
         table = Table(title=level, title_justify="left", caption_justify="left")
-        for column in ("parameter", "value", "unit", "searched", "note"):
+        for column in ("parameter", "value", "unit", *intervals, "searched", "note"):
             table.add_column(column, justify="right" if column == "value" else "left")
         for p in run.parameters:
-            table.add_row(p.name, f"{p.value:.6g}", p.unit, f"{p.lower:.4g} to {p.upper:.4g}", p.note)
+            ends = [column.get(p.name, "") for column in intervals.values()]
+            searched = f"{p.lower:.4g} to {p.upper:.4g}"
+            table.add_row(p.name, f"{p.value:.6g}", p.unit, *ends, searched, p.note)
+        for d in run.uncertainty.derived if run.uncertainty else ():
+            ends = [column.get(d.name, "") for column in intervals.values()]
+            table.add_row(d.name, f"{d.value:.6g}", d.unit, *ends, "", "")
         gap = "" if run.gap is None else f", {100 * run.gap:.2g} % above the best known optimum"
         table.caption = (
             f"fitness {run.fitness:.6g} {run.unit} (rms {run.rms:.4g} N){gap},"
@@ -69,6 +81,8 @@ def print_identification(found: "Identification") -> None:
             f" stopped by {run.reason}, seed {run.seed}"
         )
         out.print(table)
+        for sentence in run.uncertainty.words if run.uncertainty else ():
+            out.print(sentence)
     _print_classical(found, out)
     table = Table(title="fit", title_justify="left")
     for column in (
@@ -85,6 +99,22 @@ def print_identification(found: "Identification") -> None:
         shares = (f"{100 * fit.relative_rms:.2f} %", f"{100 * fit.peak_error:.1f} %")
         table.add_row(fit.recording, current, str(fit.samples), f"{fit.rms:.4g}", *shares)
     out.print(table)
+
+
+def _intervals(
+    run: "SwarmResult", profiles: Sequence["Profile"], bootstrap: "Bootstrap | None"
+) -> dict[str, dict[str, str]]:
+    """Columns of intervals: by title, then by parameter."""
+    columns = {}
+    if run.uncertainty is not None:
+        estimates = (*run.uncertainty.parameters, *run.uncertainty.derived)
+        columns[f"{100 * run.uncertainty.level:g} % interval"] = {e.name: e.interval for e in estimates}
+    if profiles:
+        columns["by profile"] = {p.name: p.interval for p in profiles}
+    if bootstrap is not None:
+        ends = bootstrap.intervals.items()
+        columns["by bootstrap"] = {name: f"{low:.5g} to {high:.5g}" for name, (low, high) in ends}
+    return columns
 
 
 def _titles(found: "Identification") -> list[str]:

@@ -88,11 +88,11 @@ impl Tangents {
         self.singular.max() / self.singular.min()
     }
 
-    /// The direction in the parameters that the force tells least of, and the force (rms, N) it makes.
+    /// The direction that the force tells least of, in units in which each parameter alone would
+    /// change the force by 1 N rms, and the force it makes, N rms.
     pub(super) fn weakest(&self) -> (Vec<f64>, f64) {
         let place = self.singular.imin();
-        let direction = self.right.column(place).iter().zip(&self.lengths).map(|(v, l)| v / l).collect();
-        (direction, self.singular[place])
+        (self.right.column(place).iter().copied().collect(), self.singular[place])
     }
 
     /// Noise of every recording from the residuals of the fit.

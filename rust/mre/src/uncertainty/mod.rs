@@ -29,7 +29,10 @@ pub use profile::{Profile, profile};
 /// A box narrower than this share of its larger end fixes its parameter.
 const FIXED: f64 = 0.2;
 /// An uncertainty that moves the force by less than this share of its rms matters little.
-const LITTLE: f64 = 0.05;
+const LITTLE: f64 = 0.02;
+/// Correlation with a parameter that is not determined above which another is not either: the line on
+/// which both can move is straight only nearby.
+const TIED: f64 = 0.9;
 
 /// A quantity with its uncertainty.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,8 +48,9 @@ pub struct Estimate {
     /// Interval within the admissible values; `None` where an interval would pretend: see
     /// [`Self::determined`], and for a parameter on a bound that is no physical limit.
     pub interval: Option<(f64, f64)>,
-    /// False where the standard error is as large as the value (unless it hardly moves the force), or
-    /// the interval wider than the box.
+    /// False for a parameter whose standard error is as large as the value (unless it hardly moves the
+    /// force), whose interval is wider than the box, or that is tied to such a one; and for a derived
+    /// quantity with a standard error of half its value.
     pub determined: bool,
 }
 
@@ -82,13 +86,14 @@ pub fn estimate(problem: &Problem, values: &[f64], level: f64) -> Result<Uncerta
     let local = Local::new(problem, values)?;
     let covariance = local.tangents.covariance(&local.noise);
     let derived = Derived::new(problem)?;
-    let parameters = parameters(&local, &covariance, level);
+    let correlation = local.correlation(&covariance.matrix);
+    let parameters = parameters(&local, &covariance, &correlation, level);
     let derived = combine(&local, &covariance, &derived, level);
     let cycle = Cycle::of(problem);
     let words = words::words(&local, &parameters, &derived, cycle);
     Ok(Uncertainty {
         level,
-        correlation: local.correlation(&covariance.matrix),
+        correlation,
         condition_number: local.tangents.condition_number(),
         parameters,
         derived,
@@ -142,22 +147,20 @@ impl<'a> Local<'a> {
         Ok(Self { problem, values, free, tangents, noise, force: (second - first * first).max(0.0).sqrt() })
     }
 
-    /// Standard errors of the free parameters if the same motion had another amplitude.
-    fn at_amplitude(&self, factor_: f64) -> Option<Vec<f64>> {
+    /// Standard errors of the free parameters, and those that would matter little, if the same motion
+    /// had another amplitude.
+    fn at_amplitude(&self, times: f64) -> Option<Vec<(f64, f64)>> {
         let (law, model) = (self.problem.law(), self.problem.model());
         let columns: Vec<Vec<Vec<f64>>> = self
             .problem
             .recordings()
             .iter()
-            .map(|r| tangents(law, model, &r.scaled(factor_), self.values))
+            .map(|r| tangents(law, model, &r.scaled(times), self.values))
             .collect();
-        let covariance = factor(&columns, &self.free, self.problem.weights())?.covariance(&self.noise);
-        Some(covariance.matrix.diagonal().map(f64::sqrt).iter().copied().collect())
-    }
-
-    /// Standard error below which a parameter counts as determined, for one of the free.
-    fn scale(&self, place: usize, share: f64) -> f64 {
-        share * self.force / self.tangents.lengths()[place]
+        let tangents = factor(&columns, &self.free, self.problem.weights())?;
+        let variances = tangents.covariance(&self.noise).matrix.diagonal();
+        let little = |length: &f64| LITTLE * times * self.force / length;
+        Some(variances.iter().map(|v| v.sqrt()).zip(tangents.lengths().iter().map(little)).collect())
     }
 
     fn correlation(&self, covariance: &DMatrix<f64>) -> Vec<f64> {
@@ -194,30 +197,37 @@ fn factor(columns: &[Vec<Vec<f64>>], free: &[usize], weights: &[f64]) -> Option<
     Tangents::new(&picked, weights)
 }
 
-fn parameters(local: &Local<'_>, covariance: &Covariance, level: f64) -> Vec<Estimate> {
-    let (problem, values) = (local.problem, local.values);
+fn parameters(local: &Local<'_>, covariance: &Covariance, correlation: &[f64], level: f64) -> Vec<Estimate> {
+    let (problem, values, d) = (local.problem, local.values, local.values.len());
+    // Standard error, half of the interval, and whether they are small, of every free parameter.
+    let mut spreads = vec![None; d];
+    for (place, &j) in local.free.iter().enumerate() {
+        let unit = DVector::from_fn(local.free.len(), |i, _| if i == place { 1.0 } else { 0.0 });
+        let (error, reach) = spread(covariance, &unit, level);
+        let little = LITTLE * local.force / local.tangents.lengths()[place];
+        let p = &problem.parameters()[j];
+        let small = (error < values[j].abs() || error < little) && 2.0 * reach < p.upper - p.lower;
+        spreads[j] = Some((error, reach, small));
+    }
+    let loose: Vec<bool> =
+        (0..d).map(|j| spreads[j].map_or_else(|| !fixed(problem, j), |(_, _, small)| !small)).collect();
+    let tied = |j: usize| (0..d).any(|i| loose[i] && correlation[j * d + i].abs() > TIED);
     let sides = problem.bounds().on_bound(values);
-    let known = problem.parameters().iter().enumerate();
-    known
-        .map(|(j, p)| {
-            let value = values[j];
-            let bare = Estimate {
+    (0..d)
+        .map(|j| {
+            let (p, value) = (&problem.parameters()[j], values[j]);
+            let determined = !loose[j] && !tied(j);
+            let at_box = (sides[j] < 0 && p.lower > p.smallest) || (sides[j] > 0 && p.upper < p.largest);
+            let shown = spreads[j].filter(|_| determined && !at_box);
+            Estimate {
                 name: p.name.clone(),
                 unit: p.unit,
                 value,
-                standard_error: None,
-                interval: None,
-                determined: fixed(problem, j),
-            };
-            let Some(place) = local.free.iter().position(|i| *i == j) else { return bare };
-            let unit = DVector::from_fn(local.free.len(), |i, _| if i == place { 1.0 } else { 0.0 });
-            let (error, reach) = spread(covariance, &unit, level);
-            let small = error < value.abs() || error < local.scale(place, LITTLE);
-            let determined = small && 2.0 * reach < p.upper - p.lower;
-            let at_box = (sides[j] < 0 && p.lower > p.smallest) || (sides[j] > 0 && p.upper < p.largest);
-            let interval = (determined && !at_box)
-                .then(|| ((value - reach).max(p.smallest), (value + reach).min(p.largest)));
-            Estimate { standard_error: Some(error), interval, determined, ..bare }
+                standard_error: spreads[j].map(|(error, ..)| error),
+                interval: shown
+                    .map(|(_, reach, _)| ((value - reach).max(p.smallest), (value + reach).min(p.largest))),
+                determined,
+            }
         })
         .collect()
 }

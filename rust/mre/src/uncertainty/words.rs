@@ -4,9 +4,11 @@ use super::derived::{Cycle, combinations};
 use super::{Estimate, Local};
 
 /// Larger amplitudes that are tried, as shares of the tested one.
-const FACTORS: [f64; 6] = [1.5, 2.0, 3.0, 4.0, 6.0, 8.0];
+const FACTORS: [f64; 3] = [2.0, 4.0, 8.0];
 /// Relative standard error that counts as good.
 const GOOD: f64 = 0.1;
+/// A parameter is named where it makes this share of the weakest direction.
+const NAMED: f64 = 0.05;
 
 /// Sentences; none where every parameter is determined.
 pub(super) fn words(
@@ -31,7 +33,7 @@ pub(super) fn words(
     }
     if let Some(amplitude) = cure(local, &bad, cycle) {
         first +=
-            &format!(": {} {:.3} mm test would fix {}", article(amplitude), Short(amplitude), them(&names));
+            &format!(": {} {:.2} mm test would fix {}", article(amplitude), Short(amplitude), them(&names));
     }
     let mut out = vec![first];
     out.extend(weakest(local, parameters));
@@ -44,7 +46,7 @@ fn them(names: &[&str]) -> &'static str {
 
 /// "an 8 mm test", "a 4 mm test".
 fn article(number: f64) -> &'static str {
-    let text = format!("{:.3}", Short(number));
+    let text = format!("{:.2}", Short(number));
     let whole = text.split('.').next().unwrap_or_default();
     if text.starts_with('8') || whole == "11" || whole == "18" { "an" } else { "a" }
 }
@@ -71,10 +73,10 @@ fn cure(local: &Local<'_>, bad: &[usize], cycle: Cycle) -> Option<f64> {
     let places: Option<Vec<usize>> =
         bad.iter().map(|j| local.free.iter().position(|i| i == j).filter(|_| sides[*j] == 0)).collect();
     let places = places?;
-    let good = |errors: &[f64]| {
+    let good = |errors: &[(f64, f64)]| {
         places.iter().all(|place| {
-            let value = local.values[local.free[*place]].abs();
-            errors[*place] < GOOD * value
+            let (error, little) = errors[*place];
+            error < little.max(GOOD * local.values[local.free[*place]].abs())
         })
     };
     FACTORS
@@ -83,27 +85,28 @@ fn cure(local: &Local<'_>, bad: &[usize], cycle: Cycle) -> Option<f64> {
         .map(|factor| factor * cycle.amplitude)
 }
 
-/// The change of the parameters that the recordings see least of.
+/// The change of the parameters that the recordings see least of, so large that the one that changes
+/// most changes by a tenth.
 fn weakest(local: &Local<'_>, parameters: &[Estimate]) -> Option<String> {
     let (direction, rms) = local.tangents.weakest();
-    let relative: Vec<f64> =
-        local.free.iter().zip(&direction).map(|(j, d)| d / local.values[*j].abs()).collect();
-    let largest = relative
-        .iter()
-        .zip(&local.free)
-        .filter(|(r, j)| r.is_finite() && !parameters[**j].determined)
-        .map(|(r, _)| *r)
-        .max_by(|a, b| a.abs().total_cmp(&b.abs()))?;
-    let step = 0.1 / largest;
-    let changes: Vec<String> = relative
-        .iter()
-        .zip(&local.free)
-        .filter(|(r, _)| (*r * step).abs() > 0.01 && r.is_finite())
-        .map(|(r, j)| format!("{} {:+.2} %", parameters[*j].name, Short(100.0 * r * step)))
+    let lengths = local.tangents.lengths();
+    let named: Vec<(&Estimate, f64)> = (0..direction.len())
+        .filter(|i| direction[*i].abs() > NAMED)
+        .map(|i| (&parameters[local.free[i]], direction[i] / lengths[i]))
         .collect();
-    (changes.len() > 1).then(|| {
-        format!("{} together change the force by {:.2} N rms", changes.join(", "), Short((rms * step).abs()))
-    })
+    let shares = named.iter().filter(|(p, _)| p.value != 0.0).map(|(p, change)| change / p.value.abs());
+    let step = 0.1 / shares.max_by(|a, b| a.abs().total_cmp(&b.abs()))?;
+    let text = |(p, change): &(&Estimate, f64)| {
+        if p.value == 0.0 {
+            format!("{} {:+.2} {}", p.name, Short(change * step), p.unit)
+        } else {
+            format!("{} {:+.2} %", p.name, Short(100.0 * change * step / p.value.abs()))
+        }
+    };
+    let changes: Vec<String> = named.iter().map(text).collect();
+    let force = Short((rms * step).abs());
+    (changes.len() > 1)
+        .then(|| format!("{} together change the force by {force:.2} N rms", changes.join(", ")))
 }
 
 /// A number with as many significant digits as the precision says.
