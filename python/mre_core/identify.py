@@ -190,7 +190,9 @@ def _with_uncertainty(run: SwarmResult, problem: Problem) -> SwarmResult:
         return run
     samples = sum(stop - start for start, stop in (r.scored for r in problem.recordings))
     if run.gap is not None and run.gap * samples > 1:
-        words = f"{run.algorithm} stopped farther above the optimum than noise would: the intervals are too narrow"
+        words = (
+            f"{run.algorithm} stopped short of the optimum by more than noise: the intervals are too narrow"
+        )
         found = replace(found, words=(*found.words, words))
     return replace(run, uncertainty=found)
 

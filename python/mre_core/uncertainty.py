@@ -25,9 +25,8 @@ class Estimate:
     parameter on a bound that is no physical limit."""
     high: float | None
     determined: bool
-    """False for a parameter whose standard error is as large as its value (unless it hardly moves the
-    force), whose interval is wider than its box, or that is tied to such a one; and for a combination
-    with a standard error of half its value."""
+    """False where the interval reaches zero (unless a standard error of the parameter hardly moves the
+    force); for a parameter also where it is wider than the box, or tied to such a one."""
 
     @property
     def interval(self) -> str:

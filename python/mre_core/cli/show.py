@@ -65,15 +65,16 @@ def print_identification(
     for i, (run, level) in enumerate(zip(found.runs, _titles(found), strict=True)):
         intervals = _intervals(run, profiles[i] if profiles else (), bootstraps[i] if bootstraps else None)
         table = Table(title=level, title_justify="left", caption_justify="left")
-        for column in ("parameter", "value", "unit", *intervals, "searched", "note"):
+        wide = len(intervals) < 2  # room for the box
+        for column in ("parameter", "value", "unit", *intervals, *(["searched"] if wide else []), "note"):
             table.add_column(column, justify="right" if column == "value" else "left")
         for p in run.parameters:
             ends = [column.get(p.name, "") for column in intervals.values()]
-            searched = f"{p.lower:.4g} to {p.upper:.4g}"
-            table.add_row(p.name, f"{p.value:.6g}", p.unit, *ends, searched, p.note)
+            searched = [f"{p.lower:.4g} to {p.upper:.4g}"] if wide else []
+            table.add_row(p.name, f"{p.value:.6g}", p.unit, *ends, *searched, p.note)
         for d in run.uncertainty.derived if run.uncertainty else ():
             ends = [column.get(d.name, "") for column in intervals.values()]
-            table.add_row(d.name, f"{d.value:.6g}", d.unit, *ends, "", "")
+            table.add_row(d.name, f"{d.value:.6g}", d.unit, *ends)
         gap = "" if run.gap is None else f", {100 * run.gap:.2g} % above the best known optimum"
         table.caption = (
             f"fitness {run.fitness:.6g} {run.unit} (rms {run.rms:.4g} N){gap},"

@@ -9,8 +9,8 @@ use nalgebra::{DMatrix, DVector};
 
 use super::noise::Noise;
 
-/// Steps of the correction of the noise.
-const CORRECTIONS: usize = 8;
+/// Most steps of the correction of the noise.
+const CORRECTIONS: usize = 20;
 /// Singular values below this share of the largest are taken as that.
 const DEPENDENT: f64 = 1e-14;
 
@@ -99,14 +99,19 @@ impl Tangents {
     pub(super) fn noise(&self, residuals: &[Vec<f64>], rates: &[f64]) -> Vec<Noise> {
         let mut noise: Vec<Noise> =
             residuals.iter().zip(rates).map(|(e, rate)| Noise::of(e, *rate)).collect();
+        let found: Vec<Vec<f64>> = noise.iter().zip(residuals).map(|(n, e)| n.products(e)).collect();
         for _ in 0..CORRECTIONS {
-            let coloured = self.colour(&noise);
-            let spread = self.spread(&noise, &coloured);
-            noise = noise
+            let spread = self.spread(&noise, &self.colour(&noise));
+            let better: Vec<Noise> = noise
                 .iter()
                 .enumerate()
-                .map(|(r, before)| before.corrected(&residuals[r], &self.bases[r], self.weights[r], &spread))
+                .map(|(r, before)| before.corrected(&found[r], &self.bases[r], self.weights[r], &spread))
                 .collect();
+            let settled = better.iter().zip(&noise).all(|(now, before)| now.is_near(before));
+            noise = better;
+            if settled {
+                break;
+            }
         }
         noise
     }

@@ -48,9 +48,8 @@ pub struct Estimate {
     /// Interval within the admissible values; `None` where an interval would pretend: see
     /// [`Self::determined`], and for a parameter on a bound that is no physical limit.
     pub interval: Option<(f64, f64)>,
-    /// False for a parameter whose standard error is as large as the value (unless it hardly moves the
-    /// force), whose interval is wider than the box, or that is tied to such a one; and for a derived
-    /// quantity with a standard error of half its value.
+    /// False where the interval reaches zero (unless a standard error of the parameter hardly moves the
+    /// force); for a parameter also where it is wider than the box, or tied to such a one.
     pub determined: bool,
 }
 
@@ -206,7 +205,7 @@ fn parameters(local: &Local<'_>, covariance: &Covariance, correlation: &[f64], l
         let (error, reach) = spread(covariance, &unit, level);
         let little = LITTLE * local.force / local.tangents.lengths()[place];
         let p = &problem.parameters()[j];
-        let small = (error < values[j].abs() || error < little) && 2.0 * reach < p.upper - p.lower;
+        let small = (reach < values[j].abs() || error < little) && 2.0 * reach < p.upper - p.lower;
         spreads[j] = Some((error, reach, small));
     }
     let loose: Vec<bool> =
@@ -257,7 +256,7 @@ fn combine(local: &Local<'_>, covariance: &Covariance, derived: &Derived<'_>, le
         .map(|(k, ((name, unit), value))| {
             let slope = DVector::from_fn(local.free.len(), |i, _| slopes[i][k]);
             let (error, reach) = spread(covariance, &slope, level);
-            let determined = error < 0.5 * value.abs();
+            let determined = reach < value.abs();
             let interval = Some((value - reach, value + reach));
             Estimate { name, unit, value, standard_error: Some(error), interval, determined }
         })

@@ -12,7 +12,12 @@ use nalgebra::DMatrix;
 const MEMORY: f64 = 0.3;
 /// At least so many samples for each coefficient.
 const SAMPLES_PER_COEFFICIENT: usize = 10;
-/// Filters run on into the past until less than this is left.
+/// White noise in every autoregression, as a share of its variance: oversampled residuals would
+/// otherwise be foretold exactly.
+const FLOOR: f64 = 1e-6;
+/// Change of the autocovariance at which it is settled.
+const NEAR: f64 = 1e-6;
+/// Filters run on into the past until less than this is left, or as long again.
 const NOTHING: f64 = 1e-9;
 
 /// An autoregression.
@@ -30,47 +35,53 @@ impl Noise {
     pub(super) fn of(residual: &[f64], rate: f64) -> Self {
         let n = residual.len();
         let most = ((MEMORY * rate) as usize).min(n / SAMPLES_PER_COEFFICIENT);
-        let sums: Vec<f64> = products(residual, most).iter().map(|c| c / n as f64).collect();
+        let mut sums: Vec<f64> = products(residual, most).iter().map(|c| c / n as f64).collect();
+        sums[0] *= 1.0 + FLOOR;
         if sums[0] <= 0.0 {
             return Self { phi: Vec::new(), variance: 0.0, autocovariance: vec![0.0] };
         }
         let mut best = (f64::INFINITY, 0);
         let mut reflections = Levinson::new(sums[0]);
         for order in 0..=most {
-            if order > 0 {
-                reflections.raise(sums[order], limit(n));
+            if order > 0 && !reflections.raise(sums[order], limit(n)) {
+                break;
             }
             let criterion = n as f64 * reflections.variance.ln() + order as f64 * (n as f64).ln();
             if criterion < best.0 {
                 best = (criterion, order);
             }
         }
-        Self::from_autocovariance(&sums[..=best.1], n)
+        let white = Self { phi: Vec::new(), variance: sums[0], autocovariance: vec![sums[0]] };
+        Self::from_autocovariance(&sums[..=best.1], n).unwrap_or(white)
     }
 
-    fn from_autocovariance(wanted: &[f64], n: usize) -> Self {
+    /// `None` for values that are no autocovariance of a noise with a memory within the recording.
+    fn from_autocovariance(wanted: &[f64], n: usize) -> Option<Self> {
         let mut found = Levinson::new(wanted[0]);
-        for next in &wanted[1..] {
-            found.raise(*next, limit(n));
-        }
-        Self { phi: found.phi, variance: found.variance, autocovariance: found.autocovariance }
+        let stationary = wanted[0] > 0.0 && wanted[1..].iter().all(|next| found.raise(*next, limit(n)));
+        stationary.then_some(Self {
+            phi: found.phi,
+            variance: found.variance,
+            autocovariance: found.autocovariance,
+        })
     }
 
     /// The noise whose residuals after the fit would have the autocovariances found, one step nearer.
     ///
+    /// `found` are the products of the residuals up to the order ([`Self::products`]).
     /// `basis` holds orthonormal columns of the weighted tangents, row by row those of this recording,
     /// `weight` its weight, and `spread` the covariance of the products of basis and weighted noise.
     pub(super) fn corrected(
         &self,
-        residual: &[f64],
+        found: &[f64],
         basis: &DMatrix<f64>,
         weight: f64,
         spread: &DMatrix<f64>,
     ) -> Self {
-        let (n, order) = (residual.len(), self.phi.len());
+        let n = basis.nrows();
         let taken = self.times(basis); // V Q
         let pulled = basis * spread / weight;
-        let wanted: Vec<f64> = products(residual, order)
+        let wanted: Vec<f64> = found
             .iter()
             .enumerate()
             .map(|(lag, found)| {
@@ -78,13 +89,26 @@ impl Noise {
                 let (early, late) = (basis.rows(0, m), basis.rows(lag, m));
                 let lost = taken.rows(0, m).dot(&late) + taken.rows(lag, m).dot(&early)
                     - pulled.rows(0, m).dot(&late);
-                (found + lost) / m as f64
+                (found + lost) / m as f64 * if lag == 0 { 1.0 + FLOOR } else { 1.0 }
             })
             .collect();
-        if wanted[0] <= 0.0 {
-            return self.clone();
-        }
-        Self::from_autocovariance(&wanted, n)
+        let part = |share: f64| {
+            let pairs = wanted.iter().zip(&self.autocovariance);
+            let mixed: Vec<f64> = pairs.map(|(new, old)| old + share * (new - old)).collect();
+            Self::from_autocovariance(&mixed, n)
+        };
+        [1.0, 0.5, 0.25].into_iter().find_map(part).unwrap_or_else(|| self.clone())
+    }
+
+    /// `sum_t e_t e_(t + lag)` of residuals up to the order.
+    pub(super) fn products(&self, residual: &[f64]) -> Vec<f64> {
+        products(residual, self.phi.len())
+    }
+
+    /// True where the autocovariances are those of another noise but for a small share.
+    pub(super) fn is_near(&self, other: &Self) -> bool {
+        let pairs = self.autocovariance.iter().zip(&other.autocovariance);
+        pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) <= NEAR * self.autocovariance[0]
     }
 
     /// Columns filtered so that their products are those with the noise: `U'U variance = Q' V Q`. The
@@ -125,7 +149,7 @@ impl Noise {
         }
         let (n, order) = (out.len(), self.phi.len());
         let largest = out.iter().fold(0.0_f64, |most, u| most.max(u.abs()));
-        while order > 0 && out.len() < 20 * n {
+        while order > 0 && out.len() < 2 * n {
             if out[out.len() - order..].iter().all(|u| u.abs() <= NOTHING * largest) {
                 break;
             }
@@ -177,8 +201,7 @@ fn products(values: &[f64], last: usize) -> Vec<f64> {
     (0..=last).map(product).collect()
 }
 
-/// Recursion of Levinson and Durbin for the Yule-Walker equations. A reflection coefficient beyond its
-/// limit is moved there, and the autocovariance with it.
+/// Recursion of Levinson and Durbin for the Yule-Walker equations.
 struct Levinson {
     phi: Vec<f64>,
     variance: f64,
@@ -190,18 +213,24 @@ impl Levinson {
         Self { phi: Vec::new(), variance, autocovariance: vec![variance] }
     }
 
-    fn raise(&mut self, wanted: f64, limit: f64) {
+    /// One order more. False, and nothing done, where the reflection coefficient is beyond its limit.
+    fn raise(&mut self, wanted: f64, limit: f64) -> bool {
         let m = self.phi.len();
         let expected: f64 = (0..m).map(|j| self.phi[j] * self.autocovariance[m - j]).sum();
-        let reflection = ((wanted - expected) / self.variance).clamp(-limit, limit);
-        self.autocovariance.push(expected + reflection * self.variance);
+        let reflection = (wanted - expected) / self.variance;
+        if reflection.is_nan() || reflection.abs() > limit {
+            return false;
+        }
+        self.autocovariance.push(wanted);
         self.phi = (0..m).map(|j| self.phi[j] - reflection * self.phi[m - 1 - j]).collect();
         self.phi.push(reflection);
         self.variance *= 1.0 - reflection * reflection;
+        true
     }
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
 
@@ -210,7 +239,7 @@ mod tests {
         let (p1, p2) = (1.2, -0.5);
         let g0 = (1.0 - p2) / ((1.0 + p2) * ((1.0 - p2) * (1.0 - p2) - p1 * p1));
         let g1 = p1 * g0 / (1.0 - p2);
-        Noise::from_autocovariance(&[g0, g1, p1 * g1 + p2 * g0], 1000)
+        Noise::from_autocovariance(&[g0, g1, p1 * g1 + p2 * g0], 1000).unwrap()
     }
 
     fn covariance(noise: &Noise, n: usize) -> DMatrix<f64> {

@@ -23,7 +23,7 @@ pub(super) fn words(
     }
     let names: Vec<&str> = bad.iter().map(|j| parameters[*j].name.as_str()).collect();
     let verb = if names.len() > 1 { "each are" } else { "is" };
-    let mut first = format!("at {:.3} mm ", Short(cycle.amplitude));
+    let mut first = format!("at {:.2} mm ", Short(cycle.amplitude));
     let known = determined_combinations(local, parameters, derived);
     if known.is_empty() {
         first += &format!("{} {verb} not determined", names.join(", "));
