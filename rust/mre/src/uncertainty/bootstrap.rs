@@ -9,9 +9,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
 
+use super::check_level;
 use super::derived::Derived;
+use super::local::Local;
 use super::noise::Noise;
-use super::{Local, check_level, force};
+use super::tangent::force;
 use crate::error::{Error, Result};
 use crate::fit::refit;
 use crate::fitness::Problem;
@@ -123,7 +125,9 @@ impl<'a> Source<'a> {
         let mean = innovations.iter().sum::<f64>() / n;
         let square = innovations.iter().map(|a| (a - mean).powi(2)).sum::<f64>() / n;
         let scale = if square > 0.0 { (noise.variance / square).sqrt() } else { 0.0 };
-        innovations.iter_mut().for_each(|a| *a = scale * (*a - mean));
+        for a in &mut innovations {
+            *a = scale * (*a - mean);
+        }
         let mut whole = recording.force().unwrap_or_default().to_vec();
         whole[scored.clone()].copy_from_slice(&fitted);
         Self { noise, innovations, block: n.cbrt().round().max(1.0) as usize, fitted: whole, scored }

@@ -8,6 +8,8 @@
 
 use nalgebra::DMatrix;
 
+use super::levinson::{Levinson, limit, products};
+
 /// Longest memory of the autoregression, s.
 const MEMORY: f64 = 0.3;
 /// At least so many samples for each coefficient.
@@ -42,8 +44,8 @@ impl Noise {
         }
         let mut best = (f64::INFINITY, 0);
         let mut reflections = Levinson::new(sums[0]);
-        for order in 0..=most {
-            if order > 0 && !reflections.raise(sums[order], limit(n)) {
+        for (order, sum) in sums.iter().enumerate() {
+            if order > 0 && !reflections.raise(*sum, limit(n)) {
                 break;
             }
             let criterion = n as f64 * reflections.variance.ln() + order as f64 * (n as f64).ln();
@@ -190,45 +192,6 @@ impl Noise {
     }
 }
 
-/// Largest reflection coefficient: a memory of about the whole recording.
-fn limit(n: usize) -> f64 {
-    1.0 - 1.0 / n as f64
-}
-
-/// `sum_t e_t e_(t + lag)` for every lag up to the last.
-fn products(values: &[f64], last: usize) -> Vec<f64> {
-    let product = |lag: usize| values.iter().zip(&values[lag..]).map(|(a, b)| a * b).sum();
-    (0..=last).map(product).collect()
-}
-
-/// Recursion of Levinson and Durbin for the Yule-Walker equations.
-struct Levinson {
-    phi: Vec<f64>,
-    variance: f64,
-    autocovariance: Vec<f64>,
-}
-
-impl Levinson {
-    fn new(variance: f64) -> Self {
-        Self { phi: Vec::new(), variance, autocovariance: vec![variance] }
-    }
-
-    /// One order more. False, and nothing done, where the reflection coefficient is beyond its limit.
-    fn raise(&mut self, wanted: f64, limit: f64) -> bool {
-        let m = self.phi.len();
-        let expected: f64 = (0..m).map(|j| self.phi[j] * self.autocovariance[m - j]).sum();
-        let reflection = (wanted - expected) / self.variance;
-        if reflection.is_nan() || reflection.abs() > limit {
-            return false;
-        }
-        self.autocovariance.push(wanted);
-        self.phi = (0..m).map(|j| self.phi[j] - reflection * self.phi[m - 1 - j]).collect();
-        self.phi.push(reflection);
-        self.variance *= 1.0 - reflection * reflection;
-        true
-    }
-}
-
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
@@ -275,7 +238,7 @@ mod tests {
     fn sensitivity_is_the_derivative() {
         let (noise, q) = (ar2(), columns(60));
         let found = noise.sensitivity(&noise.colour(&q));
-        for lag in 0..2 {
+        for (lag, half) in found.iter().enumerate() {
             let at = |step: f64| {
                 let mut moved = noise.clone();
                 moved.phi[lag] += step;
@@ -283,7 +246,7 @@ mod tests {
                 u.tr_mul(&u)
             };
             let difference = (at(1e-5) - at(-1e-5)) / 2e-5;
-            let both = &found[lag] + found[lag].transpose();
+            let both = half + half.transpose();
             assert!((&difference - &both).amax() < 1e-4 * both.amax());
         }
     }

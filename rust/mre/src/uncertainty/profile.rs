@@ -9,7 +9,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use nalgebra::DVector;
 use rayon::prelude::*;
 
-use super::{Local, check_level, fixed, student};
+use super::local::Local;
+use super::{check_level, student};
 use crate::error::Result;
 use crate::fit::refit;
 use crate::fitness::Problem;
@@ -47,8 +48,7 @@ pub fn profile(problem: &Problem, values: &[f64], level: f64, cancel: &AtomicBoo
     let local = Local::new(problem, values)?;
     let covariance = local.tangents.covariance(&local.noise);
     let best = cost(problem, values);
-    let places: Vec<usize> = (0..local.free.len()).filter(|i| !fixed(problem, local.free[*i])).collect();
-    places
+    (0..local.free.len())
         .into_par_iter()
         .map(|place| {
             let unit = DVector::from_fn(local.free.len(), |i, _| if i == place { 1.0 } else { 0.0 });
@@ -75,6 +75,9 @@ fn cost(problem: &Problem, values: &[f64]) -> f64 {
     cost[0]
 }
 
+/// Values and their cost.
+type Points = Vec<(f64, f64)>;
+
 /// One side of a profile.
 struct Walk<'a> {
     problem: &'a Problem,
@@ -89,7 +92,7 @@ struct Walk<'a> {
 impl Walk<'_> {
     /// Where the cost has risen enough, and the points on the way outward; the first step is as the
     /// tangents say.
-    fn end(&self, step: f64) -> Result<(Option<f64>, Vec<(f64, f64)>)> {
+    fn end(&self, step: f64) -> Result<(Option<f64>, Points)> {
         let (lower, upper) = (self.problem.bounds().lower()[self.j], self.problem.bounds().upper()[self.j]);
         let (start, wall) = (self.values[self.j], if step < 0.0 { lower } else { upper });
         let mut points = Vec::new();

@@ -1,7 +1,8 @@
 //! What is not determined, in words.
 
+use super::Estimate;
 use super::derived::{Cycle, combinations};
-use super::{Estimate, Local};
+use super::local::Local;
 
 /// Larger amplitudes that are tried, as shares of the tested one.
 const FACTORS: [f64; 3] = [2.0, 4.0, 8.0];
@@ -23,18 +24,17 @@ pub(super) fn words(
     }
     let names: Vec<&str> = bad.iter().map(|j| parameters[*j].name.as_str()).collect();
     let verb = if names.len() > 1 { "each are" } else { "is" };
-    let mut first = format!("at {:.2} mm ", Short(cycle.amplitude));
     let known = determined_combinations(local, parameters, derived);
-    if known.is_empty() {
-        first += &format!("{} {verb} not determined", names.join(", "));
+    let what = if known.is_empty() {
+        format!("{} {verb} not determined", names.join(", "))
     } else {
         let count = if known.len() > 1 { "are" } else { "is" };
-        first += &format!("only {} {count} determined; {} {verb} not", known.join(" and "), names.join(", "));
-    }
-    if let Some(amplitude) = cure(local, &bad, cycle) {
-        first +=
-            &format!(": {} {:.2} mm test would fix {}", article(amplitude), Short(amplitude), them(&names));
-    }
+        format!("only {} {count} determined; {} {verb} not", known.join(" and "), names.join(", "))
+    };
+    let remedy = cure(local, &bad, cycle).map_or(String::new(), |amplitude| {
+        format!(": {} {:.2} mm test would fix {}", article(amplitude), Short(amplitude), them(&names))
+    });
+    let first = format!("at {:.2} mm {what}{remedy}", Short(cycle.amplitude));
     let mut out = vec![first];
     out.extend(weakest(local, parameters));
     out
@@ -141,7 +141,7 @@ mod tests {
         for (number, text) in cases {
             assert_eq!(format!("{:.3}", Short(number)), text);
         }
-        assert_eq!(format!("{:+.2}", Short(3.14)), "+3.1");
+        assert_eq!(format!("{:+.2}", Short(2.84)), "+2.8");
     }
 
     #[test]
