@@ -216,6 +216,7 @@ def test_changing_current_has_combinations_at_both_ends() -> None:
     recording = Recording(moved.time, moved.displacement, force, velocity=moved.velocity, current=current)
     found = mre_core.identify(recording, "sinh", seed=1)
     assert found.result.uncertainty is not None
+    assert np.ptp(found.bootstrap(3)[0].replicates, axis=0).min() > 0
     derived = by_name(found.result.uncertainty)
     for level, k0 in ((0, SINH["k0"]), (2, 20.0)):
         estimate = derived[f"k0 + alpha beta ({level} A)"]
@@ -274,7 +275,9 @@ def test_levels_that_are_none(level: float, sinh_4mm: Recording) -> None:
 
 def test_wrong_parameters(sinh_4mm: Recording) -> None:
     problem = Problem(sinh_4mm, "sinh")
-    with pytest.raises(mre_core.MreError, match=r"x0|shape"):
+    with pytest.raises(mre_core.MreError, match="number of parameters is 2: c0, k0, alpha, beta, F0"):
         mre_core.uncertainty(problem, [1.0, 2.0])
-    with pytest.raises(mre_core.MreError, match="NaN"):
-        mre_core.uncertainty(problem, [np.nan] * 5)
+    with pytest.raises(mre_core.MreError, match="x is an array of shape"):
+        mre_core.uncertainty(problem, np.ones((2, 5)))
+    with pytest.raises(mre_core.MreError, match="beta is NaN: a finite number"):
+        mre_core.uncertainty(problem, [1.0, 1.0, 1.0, np.nan, 0.0])

@@ -5,11 +5,10 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::array::matrix;
+use crate::array::{matrix, vector};
 use crate::error::{setting, to_python};
 use crate::problem::Problem;
 use crate::run::in_pool;
-use crate::swarm::read_start;
 
 /// Name, unit, value, standard error, low, high, determined.
 type Row = (String, &'static str, f64, Option<f64>, Option<f64>, Option<f64>, bool);
@@ -32,7 +31,7 @@ pub(crate) fn fit_uncertainty<'py>(
     x: &Bound<'py, PyAny>,
     level: f64,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let values = read_start(x, problem.inner.parameters().len())?;
+    let values = vector("x", x)?;
     let job = |_: &_| uncertainty::estimate(&problem.inner, &values, level);
     let found = in_pool(py, Some(1), None, true, job)?.0.map_err(to_python)?;
     let d = values.len();
@@ -58,7 +57,7 @@ pub(crate) fn fit_profile<'py>(
     level: f64,
     threads: Option<i64>,
 ) -> PyResult<Vec<ProfileRow<'py>>> {
-    let values = read_start(x, problem.inner.parameters().len())?;
+    let values = vector("x", x)?;
     let job = |link: &crate::run::Link| uncertainty::profile(&problem.inner, &values, level, link.cancel());
     let found = in_pool(py, threads, None, true, job)?.0.map_err(to_python)?;
     found
@@ -82,7 +81,7 @@ pub(crate) fn fit_bootstrap<'py>(
     level: f64,
     threads: Option<i64>,
 ) -> PyResult<Replicates<'py>> {
-    let values = read_start(x, problem.inner.parameters().len())?;
+    let values = vector("x", x)?;
     let count = usize::try_from(replicates)
         .map_err(|_| setting("replicates", replicates, "a whole number of at least 2"))?;
     let job = |link: &crate::run::Link| {

@@ -27,6 +27,7 @@ pub(super) struct Local<'a> {
 
 impl<'a> Local<'a> {
     pub(super) fn new(problem: &'a Problem, values: &'a [f64]) -> Result<Self> {
+        check(problem, values)?;
         let (law, model) = (problem.law(), problem.model());
         let mut residuals = Vec::new();
         let mut columns = Vec::new();
@@ -81,6 +82,17 @@ impl<'a> Local<'a> {
             }
         }
         out
+    }
+}
+
+fn check(problem: &Problem, values: &[f64]) -> Result<()> {
+    let names: Vec<&str> = problem.parameters().iter().map(|p| p.name.as_str()).collect();
+    if values.len() != names.len() {
+        return Err(Error::setting("number of parameters", values.len(), names.join(", ")));
+    }
+    match values.iter().zip(names).find(|(value, _)| !value.is_finite()) {
+        Some((value, name)) => Err(Error::setting(name, value, "a finite number")),
+        None => Ok(()),
     }
 }
 
