@@ -133,6 +133,9 @@ def test_command_writes_and_shows_what_was_asked_for(cli: Cli, tmp_path: Path, s
     level = json.loads((tmp_path / "r" / "model.json").read_text())["levels"][0]["parameters"]
     assert level["c0"]["low"] == run["parameters"][0]["low"]
     assert "low" not in level["alpha"]
+    model = mre_core.Model.load(tmp_path / "r" / "model.json")
+    assert model.levels[0].intervals["c0"] == (level["c0"]["low"], level["c0"]["high"])
+    assert mre_core.Model.from_dict(model.to_dict()) == model
     code, out, _ = cli(*common, "--profile", "--bootstrap", "20")
     assert code == 0
     assert "by profile" in out
