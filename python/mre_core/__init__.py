@@ -18,12 +18,15 @@ from .measure import Fit
 from .model import Level, Model, simulate
 from .results import Parameter, StopReason, SwarmResult
 from .swarms import afsa, mafsa, pso
+from .uncertainty import Bootstrap, Estimate, Profile, Uncertainty, bootstrap, profile, uncertainty
 
 __all__ = [
     "AskTell",
+    "Bootstrap",
     "Certificate",
     "Diagnosis",
     "Effect",
+    "Estimate",
     "ExtrapolationWarning",
     "Fit",
     "Identification",
@@ -33,12 +36,15 @@ __all__ = [
     "MreError",
     "Parameter",
     "Problem",
+    "Profile",
     "Recording",
     "StopReason",
     "SwarmResult",
+    "Uncertainty",
     "UnitAssumedWarning",
     "__version__",
     "afsa",
+    "bootstrap",
     "certificate",
     "diagnose",
     "exact",
@@ -49,7 +55,9 @@ __all__ = [
     "load",
     "mafsa",
     "models",
+    "profile",
     "pso",
     "read_chunks",
     "simulate",
+    "uncertainty",
 ]

@@ -1,12 +1,12 @@
 """From recordings to an identified model."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 from ._core import Problem, Recording, check_certifiable, parameters
 from .certificate import certificate
-from .errors import InputError
+from .errors import InputError, MreError
 from .fits import exact, hybrid
 from .grouping import group_by_current
 from .measure import Fit, measure_fit
@@ -15,6 +15,7 @@ from .model import Level, Model
 from .results import StopReason, SwarmResult
 from .swarms import afsa, mafsa, pso
 from .tested import largest_motion
+from .uncertainty import Bootstrap, Profile, Uncertainty, bootstrap, profile, uncertainty
 
 SWARMS: dict[str, Callable[..., SwarmResult]] = {"mafsa": mafsa, "afsa": afsa, "pso": pso}
 OPTIMIZERS = (*SWARMS, "exact", "hybrid")
@@ -30,6 +31,29 @@ class Identification:
     fits: tuple[Fit, ...]
     optimizer: str
     seed: int
+    problems: tuple[Problem, ...] = field(repr=False)
+    """What each run solved."""
+
+    def profile(self, *, level: float = 0.95, threads: int | None = None) -> list[tuple[Profile, ...]]:
+        """Profile-likelihood intervals of every run: see `mre_core.profile`."""
+        pairs = zip(self.problems, self.runs, strict=True)
+        return [profile(problem, run.x, level=level, threads=threads) for problem, run in pairs]
+
+    def bootstrap(
+        self,
+        replicates: int = 1000,
+        *,
+        seed: int | None = None,
+        level: float = 0.95,
+        threads: int | None = None,
+    ) -> list[Bootstrap]:
+        """Bootstrap of every run, by default with the same seed: see `mre_core.bootstrap`."""
+        seed = self.seed if seed is None else seed
+        pairs = zip(self.problems, self.runs, strict=True)
+        return [
+            bootstrap(problem, run.x, replicates, seed=seed, level=level, threads=threads)
+            for problem, run in pairs
+        ]
 
     @property
     def interrupted(self) -> bool:
@@ -119,19 +143,20 @@ def identify(
         if on_level is not None:
             on_level(i, len(groups), current)
         start = _start(model, problem, current) if isinstance(model, Model) else None
-        run = _optimise(optimizer, problem, seed, start, options)
+        run = _with_uncertainty(_optimise(optimizer, problem, seed, start, options), problem)
         if certify and run.reason is not StopReason.INTERRUPTED:
             run = replace(run, certificate=certificate(problem, run, threads=options.get("threads")))
         runs.append(run)
         symbols = [symbol for symbol, _ in parameters(name)]
         for level, values in problem.levels(run.x, current):
-            levels.append(Level(level, dict(zip(symbols, values, strict=True))))
+            found_at = dict(zip(symbols, values, strict=True))
+            levels.append(Level(level, found_at, _intervals(run.uncertainty, level)))
         if run.reason is StopReason.INTERRUPTED:
             everything = [r for _, done in groups[: i + 1] for r in done]
             break
     found = Model(name, tuple(levels), largest_motion(everything))
     fits = tuple(measure_fit(found, recording) for recording in everything)
-    return Identification(found, tuple(runs), fits, optimizer, seed)
+    return Identification(found, tuple(runs), fits, optimizer, seed, tuple(problems[: len(runs)]))
 
 
 def _optimise(
@@ -150,6 +175,31 @@ def _optimise(
         return run
     best = exact(problem, **shared)
     return replace(run, optimum=min(best.fitness, run.fitness))
+
+
+def _with_uncertainty(run: SwarmResult, problem: Problem) -> SwarmResult:
+    """Add the uncertainty, or nothing where there are too few samples for one."""
+    try:
+        found = uncertainty(problem, run.x)
+    except MreError:
+        return run
+    samples = sum(stop - start for start, stop in (r.scored for r in problem.recordings))
+    if run.gap is not None and run.gap * samples > 1:
+        words = (
+            f"{run.algorithm} stopped short of the optimum by more than noise: the intervals are too narrow"
+        )
+        found = replace(found, words=(*found.words, words))
+    return replace(run, uncertainty=found)
+
+
+def _intervals(found: Uncertainty | None, current: float | None) -> dict[str, tuple[float, float]]:
+    """Intervals by symbol, of the parameters that belong to a level of the current."""
+    intervals = {}
+    for p in found.parameters if found is not None else ():
+        symbol, _, at = p.name.partition("(")
+        if p.low is not None and p.high is not None and (not at or float(at.removesuffix(" A)")) == current):
+            intervals[symbol] = (p.low, p.high)
+    return intervals
 
 
 def _start(model: Model, problem: Problem, current: float | None) -> list[float]:

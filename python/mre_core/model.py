@@ -29,6 +29,8 @@ class Level:
 
     current: float | None
     parameters: Mapping[str, float]
+    intervals: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    """Intervals of those parameters that the recordings determine."""
 
 
 @dataclass(frozen=True)
@@ -86,7 +88,8 @@ class Model:
             row: dict[str, Any] = {
                 "current_A": level.current,
                 "parameters": {
-                    name: {"value": level.parameters[name], "unit": unit} for name, unit in self.units.items()
+                    name: {"value": level.parameters[name], "unit": unit} | _ends(level, name)
+                    for name, unit in self.units.items()
                 },
             }
             if self.name == "bouc_wen":
@@ -117,6 +120,11 @@ class Model:
                 Level(
                     None if level["current_A"] is None else float(level["current_A"]),
                     {str(name): float(p["value"]) for name, p in level["parameters"].items()},
+                    {
+                        str(name): (float(p["low"]), float(p["high"]))
+                        for name, p in level["parameters"].items()
+                        if "low" in p
+                    },
                 )
                 for level in content["levels"]
             )
@@ -149,6 +157,10 @@ class Model:
         except (ValueError, RecursionError) as error:
             raise InputError(f"is not JSON: {error}", file=file) from None
         return cls.from_dict(content, file=file)
+
+
+def _ends(level: Level, name: str) -> dict[str, float]:
+    return dict(zip(("low", "high"), level.intervals.get(name, ()), strict=False))
 
 
 def classical(parameters: Mapping[str, float]) -> dict[str, float | None]:

@@ -3,13 +3,17 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import Any
+from textwrap import wrap
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ._core import Problem, Swarm
 from .certificate import Certificate
+
+if TYPE_CHECKING:
+    from .uncertainty import Uncertainty
 
 
 class StopReason(StrEnum):
@@ -71,6 +75,9 @@ class SwarmResult:
     certificate: Certificate | None = None
     """Proof that nothing in the box is better; None where it was not asked for."""
 
+    uncertainty: "Uncertainty | None" = field(default=None, repr=False)
+    """By `identify`, where there are more samples than parameters."""
+
     @property
     def gap(self) -> float | None:
         """How far the fitness is above the best known one, as a share of it; None where that is not known."""
@@ -115,8 +122,15 @@ class SwarmResult:
 
     def __str__(self) -> str:
         rows = [f"{self.algorithm}: fitness {self.fitness:.6g} {self.unit}".rstrip()]
-        for p in self.parameters:
-            rows.append(f"  {p.name:<12} {p.value:>14.6g} {p.unit}  {p.note}".rstrip())
+        found = self.uncertainty
+        intervals = [e.interval for e in found.parameters] if found else [""] * len(self.parameters)
+        for p, interval in zip(self.parameters, intervals, strict=True):
+            rows.append(f"  {p.name:<12} {p.value:>14.6g} {p.unit:<7} {interval:<22} {p.note}".rstrip())
+        if found is not None:
+            for d in found.derived:
+                rows.append(f"  {d.name:<20} {d.value:>6.5g} {d.unit:<7} {d.interval}".rstrip())
+            for sentence in found.words:
+                rows += wrap(sentence, 98, initial_indent="  ", subsequent_indent="    ")
         if self.gap is not None:
             rows.append(f"  {100 * self.gap:.2g} % above the best known optimum")
         if self.certificate is not None:

@@ -32,6 +32,8 @@ from .arguments import WHOLE, common_options, load_all, read_bounds, read_interv
 @click.option("--time-limit", type=float, metavar="S", help="Budget of seconds for each current.")
 @click.option("--threads", type=WHOLE, help="Threads; all cores by default.")
 @click.option("--certify", is_flag=True, help="Prove that nothing in the box is better (not bouc_wen).")
+@click.option("--profile", is_flag=True, help="Intervals by profile likelihood as well.")
+@click.option("--bootstrap", type=WHOLE, metavar="N", help="Intervals by N refits of simulated repetitions.")
 @click.option("--no-figures", is_flag=True, help="Write no figures.")
 @click.option("--quiet", is_flag=True, help="No progress, no tables.")
 @common_options
@@ -45,6 +47,8 @@ def identify(
     bounds: tuple[str, ...],
     fish: int | None,
     iterations: int | None,
+    profile: bool,
+    bootstrap: int | None,
     no_figures: bool,
     quiet: bool,
     mapping: tuple[str, ...],
@@ -97,19 +101,30 @@ def identify(
             on_interrupt="return",
             **options,
         )
+        more = _more(found, profile, bootstrap, options.get("threads"))
         if isinstance(stage, Stage):
-            _write(stage, found, loaded, figures=not no_figures)
+            _write(stage, found, more, loaded, figures=not no_figures)
     if not quiet:
-        print_identification(found)
+        print_identification(found, *more)
     return 130 if found.interrupted else 0
 
 
-def _write(stage: Any, found: Any, loaded: list[Any], *, figures: bool) -> None:
+def _more(
+    found: Any, profile: bool, bootstrap: int | None, threads: int | None
+) -> tuple[list[Any], list[Any]]:
+    """Profiles and bootstraps that were asked for, unless Ctrl-C has ended the fit."""
+    if found.interrupted:
+        return [], []
+    profiles = found.profile(threads=threads) if profile else []
+    return profiles, [] if bootstrap is None else found.bootstrap(bootstrap, threads=threads)
+
+
+def _write(stage: Any, found: Any, more: Any, loaded: list[Any], *, figures: bool) -> None:
     """``model.json``, ``identification.json`` and one figure a recording."""
     from ..describe import describe
 
     stage.write_json("model.json", found.model.to_dict() | {"interrupted": found.interrupted})
-    stage.write_json("identification.json", describe(found))
+    stage.write_json("identification.json", describe(found, *more))
     if not figures:
         return
     from ..plot import plot_fit

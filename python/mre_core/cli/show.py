@@ -1,6 +1,6 @@
 """What a person sees: progress on a terminal, tables on standard output."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
@@ -9,6 +9,8 @@ if TYPE_CHECKING:
 
     from ..diagnosis import Diagnosis
     from ..identify import Identification
+    from ..results import SwarmResult
+    from ..uncertainty import Bootstrap, Profile
 
 OnLevel = Callable[[int, int, float | None], None]
 OnProgress = Callable[[int, int, float], None]
@@ -119,17 +121,28 @@ def print_diagnosis(found: "Diagnosis") -> None:
     out.print(f"noise {fit.noise_rms:.4g} N, false-alarm rate {found.false_alarm:g}, seed {found.seed}")
 
 
-def print_identification(found: "Identification") -> None:
-    """Tables of the parameters and of the fit."""
+def print_identification(
+    found: "Identification",
+    profiles: Sequence[Sequence["Profile"]] = (),
+    bootstraps: Sequence["Bootstrap"] = (),
+) -> None:
+    """Tables of the parameters and of the fit; profiles and bootstraps are one a run, or none."""
     from rich.table import Table
 
     out = console()
-    for run, level in zip(found.runs, _titles(found), strict=True):
+    for i, (run, level) in enumerate(zip(found.runs, _titles(found), strict=True)):
+        intervals = _intervals(run, profiles[i] if profiles else (), bootstraps[i] if bootstraps else None)
         table = Table(title=level, title_justify="left", caption_justify="left")
-        for column in ("parameter", "value", "unit", "searched", "note"):
+        wide = len(intervals) < 2  # room for the box
+        for column in ("parameter", "value", "unit", *intervals, *(["searched"] if wide else []), "note"):
             table.add_column(column, justify="right" if column == "value" else "left")
         for p in run.parameters:
-            table.add_row(p.name, f"{p.value:.6g}", p.unit, f"{p.lower:.4g} to {p.upper:.4g}", p.note)
+            ends = [column.get(p.name, "") for column in intervals.values()]
+            searched = [f"{p.lower:.4g} to {p.upper:.4g}"] if wide else []
+            table.add_row(p.name, f"{p.value:.6g}", p.unit, *ends, *searched, p.note)
+        for d in run.uncertainty.derived if run.uncertainty else ():
+            ends = [column.get(d.name, "") for column in intervals.values()]
+            table.add_row(d.name, f"{d.value:.6g}", d.unit, *ends)
         gap = "" if run.gap is None else f", {100 * run.gap:.2g} % above the best known optimum"
         table.caption = (
             f"fitness {run.fitness:.6g} {run.unit} (rms {run.rms:.4g} N){gap},"
@@ -139,6 +152,8 @@ def print_identification(found: "Identification") -> None:
         out.print(table)
         if run.certificate is not None:
             out.print(str(run.certificate))
+        for sentence in run.uncertainty.words if run.uncertainty else ():
+            out.print(sentence)
     _print_classical(found, out)
     table = Table(title="fit", title_justify="left")
     for column in (
@@ -155,6 +170,22 @@ def print_identification(found: "Identification") -> None:
         shares = (f"{100 * fit.relative_rms:.2f} %", f"{100 * fit.peak_error:.1f} %")
         table.add_row(fit.recording, current, str(fit.samples), f"{fit.rms:.4g}", *shares)
     out.print(table)
+
+
+def _intervals(
+    run: "SwarmResult", profiles: Sequence["Profile"], bootstrap: "Bootstrap | None"
+) -> dict[str, dict[str, str]]:
+    """Columns of intervals: by title, then by parameter."""
+    columns = {}
+    if run.uncertainty is not None:
+        estimates = (*run.uncertainty.parameters, *run.uncertainty.derived)
+        columns[f"{100 * run.uncertainty.level:g} % interval"] = {e.name: e.interval for e in estimates}
+    if profiles:
+        columns["by profile"] = {p.name: p.interval for p in profiles}
+    if bootstrap is not None:
+        ends = bootstrap.intervals.items()
+        columns["by bootstrap"] = {name: f"{low:.5g} to {high:.5g}" for name, (low, high) in ends}
+    return columns
 
 
 def _titles(found: "Identification") -> list[str]:

@@ -18,6 +18,7 @@ mod run;
 mod settings;
 mod stream;
 mod swarm;
+mod uncertainty;
 mod watch;
 
 #[pymodule]
@@ -38,6 +39,8 @@ mod _core {
     use crate::recording::Recording;
     #[pymodule_export]
     use crate::swarm::{Swarm, inertia_weight, uniforms};
+    #[pymodule_export]
+    use crate::uncertainty::{fit_bootstrap, fit_profile, fit_uncertainty};
 
     use super::{Bound, PyModule, PyModuleMethods, PyResult};
 

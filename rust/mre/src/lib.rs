@@ -46,4 +46,5 @@ pub mod physics;
 pub mod recording;
 pub mod swarm;
 pub mod transient;
+pub mod uncertainty;
 pub mod velocity;

@@ -8,4 +8,5 @@ mod projection;
 mod refine;
 mod solve;
 
+pub(crate) use solve::refit;
 pub use solve::{Fit, exact, hybrid};

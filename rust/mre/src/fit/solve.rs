@@ -80,6 +80,19 @@ fn scan_and_descend(problem: &Problem, cancel: &AtomicBool) -> Fit {
     )
 }
 
+/// The best parameters in the box, from a start near them: exact where [`exact`] is, else by descent.
+///
+/// After `cancel` is set it ends soon, with the best so far.
+pub(crate) fn refit(problem: &Problem, start: &[f64], cancel: &AtomicBool) -> Vec<f64> {
+    if let Ok(found) = certified::exact(problem) {
+        return found.values;
+    }
+    let projection = Projection::new(problem, cancel);
+    let at = projection.unit_shapes(start);
+    let value = projection.solve(&at).1;
+    polish(problem, &projection, vec![Point { at, value }], 0.02, 1, StopReason::Iterations).values
+}
+
 /// MAFSA over the shapes with exact coefficients, then descent.
 ///
 /// # Errors

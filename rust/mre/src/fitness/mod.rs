@@ -29,7 +29,8 @@ pub struct Problem {
     parameters: Vec<Parameter>,
     bounds: Bounds,
     weights: Vec<f64>,
-    kernel: Kernel,
+    /// Shared by problems on the same samples.
+    kernel: Arc<Kernel>,
 }
 
 #[derive(Debug)]
@@ -38,6 +39,27 @@ enum Kernel {
     BoucWen(Vec<BoucWenRk4>),
     /// Any model, term by term.
     Terms,
+}
+
+impl Kernel {
+    fn new(
+        recordings: &[Arc<Recording>],
+        model: &Model,
+        law: &Law,
+        bounds: &Bounds,
+        weights: &[f64],
+    ) -> Self {
+        match (model.name(), law) {
+            ("sinh", Law::Shared) => {
+                let largest_beta = bounds.lower()[3].abs().max(bounds.upper()[3].abs());
+                Self::Sinh(Box::new(Sinh::new(recordings, weights, largest_beta)))
+            }
+            ("bouc_wen", Law::Shared) => {
+                Self::BoucWen(recordings.iter().cloned().map(BoucWenRk4::new).collect())
+            }
+            _ => Self::Terms,
+        }
+    }
 }
 
 impl Problem {
@@ -61,16 +83,46 @@ impl Problem {
         let mut parameters = law.parameters(&model, &extent);
         let bounds = bounds::choose(&mut parameters, bounds, extent.displacement)?;
         let weights = weights.scaled(&recordings)?;
-        let kernel = match (model.name(), &law) {
-            ("sinh", Law::Shared) => {
-                Kernel::Sinh(Box::new(Sinh::new(&recordings, &weights, bounds.upper()[3])))
-            }
-            ("bouc_wen", Law::Shared) => {
-                Kernel::BoucWen(recordings.iter().cloned().map(BoucWenRk4::new).collect())
-            }
-            _ => Kernel::Terms,
-        };
+        let kernel = Arc::new(Kernel::new(&recordings, &model, &law, &bounds, &weights));
         Ok(Self { recordings, model, law, parameters, bounds, weights, kernel })
+    }
+
+    /// The same problem with one parameter held at a value inside the box.
+    pub(crate) fn pinned(&self, place: usize, value: f64) -> Result<Self> {
+        let (lower, upper) = (self.bounds.lower()[place], self.bounds.upper()[place]);
+        // The narrowest box there is: two neighbouring numbers.
+        let low = if value < upper { value.max(lower) } else { upper.next_down() };
+        let mut parameters = self.parameters.clone();
+        (parameters[place].lower, parameters[place].upper) = (low, low.next_up());
+        let pick = |value: fn(&Parameter) -> f64| parameters.iter().map(value).collect();
+        let names: Vec<String> = parameters.iter().map(|p| p.name.clone()).collect();
+        let scale = parameters.iter().map(|p| p.scale).collect();
+        Ok(Self {
+            recordings: self.recordings.clone(),
+            model: Model::named(self.model.name())?,
+            law: self.law.clone(),
+            bounds: Bounds::new(&names, pick(|p| p.lower), pick(|p| p.upper), scale)?,
+            parameters,
+            weights: self.weights.clone(),
+            kernel: Arc::clone(&self.kernel),
+        })
+    }
+
+    /// The same problem, box included, with other forces, one series a recording.
+    pub(crate) fn with_forces(&self, forces: Vec<Vec<f64>>) -> Result<Self> {
+        let pairs = self.recordings.iter().zip(forces);
+        let recordings: Vec<_> = pairs.map(|(r, force)| Arc::new(r.with_force(force))).collect();
+        let model = Model::named(self.model.name())?;
+        let kernel = Arc::new(Kernel::new(&recordings, &model, &self.law, &self.bounds, &self.weights));
+        Ok(Self {
+            recordings,
+            model,
+            law: self.law.clone(),
+            parameters: self.parameters.clone(),
+            bounds: self.bounds.clone(),
+            weights: self.weights.clone(),
+            kernel,
+        })
     }
 
     /// The recordings; none where the samples were streamed.
@@ -105,7 +157,7 @@ impl Problem {
 
     /// Number of samples that count.
     pub fn samples(&self) -> usize {
-        match &self.kernel {
+        match &*self.kernel {
             Kernel::Sinh(kernel) => kernel.samples(),
             _ => self.recordings.iter().map(|r| r.scored().len()).sum(),
         }
@@ -113,7 +165,7 @@ impl Problem {
 
     /// The samples as a triangular factor, where the model and the box allow one.
     pub(crate) fn compressed(&self) -> Option<&SinhCompressed> {
-        if let Kernel::Sinh(kernel) = &self.kernel { kernel.compressed() } else { None }
+        if let Kernel::Sinh(kernel) = &*self.kernel { kernel.compressed() } else { None }
     }
 
     /// Fitness in N^2 of many candidates, one row each, in parallel on the current thread pool.
@@ -123,7 +175,7 @@ impl Problem {
     /// values do not depend on the number of threads or on the other candidates.
     pub fn fitness(&self, rows: &[f64], out: &mut [f64], cancel: &AtomicBool) {
         let d = self.parameters.len();
-        match &self.kernel {
+        match &*self.kernel {
             Kernel::BoucWen(kernels) => self.by_blocks(kernels, rows, out, cancel),
             Kernel::Sinh(kernel) => kernel.sums_of_squares(rows, out, cancel),
             Kernel::Terms => self.one_by_one(rows, out, d, cancel),

@@ -3,6 +3,8 @@
 
 use nalgebra::{Matrix4, Vector4};
 
+use std::sync::Arc;
+
 use super::{Kernel, Problem, bounds};
 use crate::error::{Error, Result};
 use crate::extent::Extent;
@@ -179,7 +181,7 @@ impl Stream {
         let model = Model::named("sinh")?;
         let mut parameters = model.parameters(&extent);
         let bounds = bounds::choose(&mut parameters, &self.given, extent.displacement)?;
-        let kernel = Kernel::Sinh(Box::new(Sinh::streamed(on, self.samples)));
+        let kernel = Arc::new(Kernel::Sinh(Box::new(Sinh::streamed(on, self.samples))));
         let (recordings, weights) = (Vec::new(), Vec::new());
         Ok(Problem { recordings, model, law: Law::Shared, parameters, bounds, weights, kernel })
     }

@@ -157,6 +157,20 @@ impl Recording {
         Ok(Self { velocity_window, ..self.with_scored(scored)? })
     }
 
+    /// The same motion with another force in N, one value a sample.
+    pub(crate) fn with_force(&self, force: Vec<f64>) -> Self {
+        let series = Series { force: Some(force), ..self.series.clone() };
+        Self { series, ..self.clone() }
+    }
+
+    /// The same motion with another amplitude, without force.
+    pub(crate) fn scaled(&self, factor: f64) -> Self {
+        let times = |values: &[f64]| values.iter().map(|v| factor * v).collect();
+        let displacement = times(&self.series.displacement);
+        let series = Series { displacement, force: None, ..self.series.clone() };
+        Self { series, velocity: times(&self.velocity), ..self.clone() }
+    }
+
     /// The same recording with another motion, and another current where given; all of one length.
     pub(crate) fn seen_with(
         &self,
