@@ -44,10 +44,11 @@ impl<'a> Assembly<'a> {
     }
 
     /// The same base with other effects.
+    #[must_use]
     pub fn with(&self, effects: Vec<&'static dyn Effect>) -> Self {
         let known = self.known.clone();
         let whole = self.whole.clone();
-        Self { known, whole, ..Self::new(self.campaign, self.base, effects, self.reference.clone()) }
+        Self { whole, known, ..Self::new(self.campaign, self.base, effects, self.reference.clone()) }
     }
 
     /// The same, with the columns of the base at these shapes at hand.
@@ -67,11 +68,13 @@ impl<'a> Assembly<'a> {
     }
 
     /// The same with another force of the base model alone.
+    #[must_use]
     pub fn referring_to(&self, reference: Vec<Vec<f64>>) -> Self {
         Self { reference: Arc::new(reference), ..self.clone() }
     }
 
     /// The same with the force of the whole device at these parameters.
+    #[must_use]
     pub fn seeing_its_force(&self, unit: &[f64], coefficients: &[f64]) -> Self {
         let shapes = self.physical(unit);
         let device = self.device_coefficients();

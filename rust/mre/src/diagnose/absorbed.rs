@@ -8,7 +8,7 @@ use crate::assembly::Campaign;
 use crate::recording::mean;
 
 /// Share of the force's rms that an effect is imagined to carry.
-pub const SHARE: f64 = 0.05;
+pub(super) const SHARE: f64 = 0.05;
 
 /// An effect that the recordings would hide.
 #[derive(Debug, Clone, PartialEq)]

@@ -19,20 +19,20 @@ pub type Given = (&'static dyn Effect, Vec<f64>);
 
 /// A base on a campaign with its fit; effects refer to its force.
 #[derive(Clone)]
-pub struct Begun<'a> {
+pub(super) struct Begun<'a> {
     /// The base, with the effects that belong to it.
-    pub assembly: Assembly<'a>,
+    pub(super) assembly: Assembly<'a>,
     /// Its fit on whitened data.
-    pub fitted: Fitted,
+    pub(super) fitted: Fitted,
     /// Noise that it leaves.
-    pub noise: Noise,
+    pub(super) noise: Noise,
 }
 
 /// Fit a base on the rows that count, with effects that belong to it.
 ///
 /// Where a recording starts in motion, the remainders of its unknown initial states are one of them; where
 /// the force is measured in steps, their saw tooth is.
-pub fn begin<'a>(campaign: &'a Campaign, base: &'a Base, given: &[Given], rows: &[Rows]) -> Begun<'a> {
+pub(super) fn begin<'a>(campaign: &'a Campaign, base: &'a Base, given: &[Given], rows: &[Rows]) -> Begun<'a> {
     let count = campaign.recordings().len();
     let nothing = campaign.recordings().iter().map(|r| vec![0.0; r.len()]).collect();
     let mut effects: Vec<&'static dyn Effect> = given.iter().map(|(effect, _)| *effect).collect();

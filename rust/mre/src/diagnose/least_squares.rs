@@ -32,20 +32,20 @@ pub struct Fitted {
 
 /// What a fit is made on.
 #[derive(Debug, Clone, Copy)]
-pub struct Data<'a> {
+pub(super) struct Data<'a> {
     /// Noise of the recordings.
-    pub noise: &'a Noise,
+    pub(super) noise: &'a Noise,
     /// Samples that count, by recording.
-    pub rows: &'a [Rows],
+    pub(super) rows: &'a [Rows],
 }
 
 /// Descend from a point of the unit box.
-pub fn refine(assembly: &Assembly, data: Data, start: &[f64]) -> Fitted {
+pub(super) fn refine(assembly: &Assembly, data: Data, start: &[f64]) -> Fitted {
     refine_at_most(assembly, data, start, MOST)
 }
 
 /// Descend with a limited number of steps.
-pub fn refine_at_most(assembly: &Assembly, data: Data, start: &[f64], most: usize) -> Fitted {
+pub(super) fn refine_at_most(assembly: &Assembly, data: Data, start: &[f64], most: usize) -> Fitted {
     let mut here = Point::at(assembly, data, start.to_vec());
     if start.is_empty() {
         return here.fitted;
@@ -100,9 +100,9 @@ fn step(system: &Normal, coefficients: usize, damping: f64, unit: &[f64]) -> DVe
         }
         let outward = |j: usize| (unit[j] <= 0.0 && found[j] < 0.0) || (unit[j] >= 1.0 && found[j] > 0.0);
         let mut more = false;
-        for j in 0..d {
-            if !held[j] && outward(j) {
-                (held[j], more) = (true, true);
+        for (j, held) in held.iter_mut().enumerate() {
+            if !*held && outward(j) {
+                (*held, more) = (true, true);
             }
         }
         if !more {

@@ -14,11 +14,11 @@ const MOST_RECORDINGS: usize = 24;
 
 /// Outcome of the test.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Mismatch {
+pub(super) struct Mismatch {
     /// Chance of at least so much under the null.
-    pub p_value: f64,
+    pub(super) p_value: f64,
     /// Squared standard deviations that the features take off, beyond what noise gives.
-    pub excess: f64,
+    pub(super) excess: f64,
 }
 
 impl Null<'_> {

@@ -12,25 +12,25 @@ pub type Rows = Vec<Range<usize>>;
 
 /// Products of columns with each other and with a target.
 #[derive(Debug, Clone)]
-pub struct Normal {
+pub(super) struct Normal {
     /// Columns with columns.
-    pub gram: DMatrix<f64>,
+    pub(super) gram: DMatrix<f64>,
     /// Columns with the target.
-    pub right: DVector<f64>,
+    pub(super) right: DVector<f64>,
     /// The target with itself.
-    pub target: f64,
+    pub(super) target: f64,
     /// Number of rows.
-    pub rows: usize,
+    pub(super) rows: usize,
 }
 
 impl Normal {
     /// No rows yet.
-    pub fn zeros(columns: usize) -> Self {
+    pub(super) fn zeros(columns: usize) -> Self {
         Self { gram: DMatrix::zeros(columns, columns), right: DVector::zeros(columns), target: 0.0, rows: 0 }
     }
 
     /// Add the rows of one recording: whitened columns with their places.
-    pub fn add(&mut self, columns: &[(usize, Vec<f64>)], target: &[f64]) {
+    pub(super) fn add(&mut self, columns: &[(usize, Vec<f64>)], target: &[f64]) {
         for (k, (i, a)) in columns.iter().enumerate() {
             self.right[*i] += dot(a, target);
             for (j, b) in &columns[..=k] {
@@ -46,7 +46,7 @@ impl Normal {
     }
 
     /// Add the sums of other rows.
-    pub fn merge(&mut self, other: &Self) {
+    pub(super) fn merge(&mut self, other: &Self) {
         self.gram += &other.gram;
         self.right += &other.right;
         self.target += other.target;
@@ -55,7 +55,7 @@ impl Normal {
 }
 
 /// Whiten a series and keep the rows that count.
-pub fn whitened(noise: &Noise, r: usize, rows: &Rows, series: &[f64]) -> Vec<f64> {
+pub(super) fn whitened(noise: &Noise, r: usize, rows: &Rows, series: &[f64]) -> Vec<f64> {
     let lost = noise.lost(r);
     let all = noise.whiten(r, series);
     if let [only] = rows.as_slice()

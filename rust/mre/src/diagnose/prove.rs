@@ -21,18 +21,18 @@ const GUARD: f64 = 1.0;
 
 /// Training and held-out samples.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Split {
+pub(super) struct Split {
     /// Samples that models are trained on, by recording.
-    pub train: Vec<Rows>,
+    pub(super) train: Vec<Rows>,
     /// Samples that they are judged on.
-    pub held_out: Vec<Rows>,
+    pub(super) held_out: Vec<Rows>,
 }
 
 /// Splits in each of which other samples are held out.
 ///
 /// Whole recordings are held out where every group that shares parameters has enough of them; otherwise,
 /// or where `by_blocks` asks for it, contiguous blocks of every recording, separated by a guard.
-pub fn splits(recordings: &[&Recording], groups: &[Vec<usize>], by_blocks: bool) -> Vec<Split> {
+pub(super) fn splits(recordings: &[&Recording], groups: &[Vec<usize>], by_blocks: bool) -> Vec<Split> {
     if by_blocks || groups.iter().any(|g| g.len() < FOLDS) {
         return (0..FOLDS).map(|fold| blocks(recordings, fold)).collect();
     }
@@ -90,6 +90,9 @@ fn blocks(recordings: &[&Recording], fold: usize) -> Split {
     split
 }
 
+/// Squared errors in N^2 and number of samples, by recording.
+type Sums = Vec<(f64, usize)>;
+
 /// Sum of squared errors in N^2, and of samples, on training and held-out samples over all splits.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Proof {
@@ -105,9 +108,9 @@ pub struct Proof {
 ///
 /// Coefficients of the measurement (drift, interference) belong to a recording: those of a held-out one are
 /// fitted to it, and the rest of the model is not.
-pub fn prove(assembly: &Assembly, noise: &Noise, splits: &[Split], fitted: &Fitted) -> Proof {
+pub(super) fn prove(assembly: &Assembly, noise: &Noise, splits: &[Split], fitted: &Fitted) -> Proof {
     let count = assembly.campaign().recordings().len();
-    let sums: Vec<(Vec<(f64, usize)>, Vec<(f64, usize)>)> = splits
+    let sums: Vec<(Sums, Sums)> = splits
         .par_iter()
         .map(|split| {
             let data = Data { noise, rows: &split.train };
@@ -132,7 +135,7 @@ pub fn prove(assembly: &Assembly, noise: &Noise, splits: &[Split], fitted: &Fitt
             errors.unzip()
         })
         .collect();
-    let total = |side: fn(&(Vec<(f64, usize)>, Vec<(f64, usize)>)) -> &Vec<(f64, usize)>| {
+    let total = |side: fn(&(Sums, Sums)) -> &Sums| {
         let mut by_recording = vec![(0.0, 0); count];
         for split in &sums {
             for (all, one) in by_recording.iter_mut().zip(side(split)) {
