@@ -67,10 +67,11 @@ impl<'a> Assembly<'a> {
         Self { known, ..self.clone() }
     }
 
-    /// The same with another force of the base model alone.
+    /// The same with another force of the base model alone, which is also what is known of the whole device.
     #[must_use]
     pub fn referring_to(&self, reference: Vec<Vec<f64>>) -> Self {
-        Self { reference: Arc::new(reference), ..self.clone() }
+        let reference = Arc::new(reference);
+        Self { whole: reference.clone(), reference, ..self.clone() }
     }
 
     /// The same with the force of the whole device at these parameters.
