@@ -64,7 +64,7 @@ print(result.reason)
 
 
 def test_interrupt_of_the_command(tmp_path: Path) -> None:
-    moved = motion(cycles=40, rate=256)
+    moved = motion(cycles=200, rate=512)
     for current in (0, 1):
         write_csv(tmp_path / f"{current}A.csv", record(made_of("bouc_wen", BOUC_WEN), moved, noise=0.1))
     out = tmp_path / "result"

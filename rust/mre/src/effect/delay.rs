@@ -11,22 +11,35 @@ use crate::parameter::Parameter;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct TimeDelay;
 
-/// The series at `time - delay`, by local cubics (Catmull-Rom); held constant beyond its ends.
+/// The series at `time - delay`, by a natural cubic spline; held constant beyond its ends.
 pub(super) fn delayed(step: f64, series: &[f64], delay: f64) -> Vec<f64> {
-    let n = series.len() as isize;
-    let shift = delay / step;
-    let at = |i: isize| series[i.clamp(0, n - 1) as usize];
-    let whole = shift.floor();
-    let s = 1.0 - (shift - whole);
-    let back = whole as isize + 1;
-    (0..n)
+    let last = series.len() - 1;
+    let bend = second_differences(series);
+    (0..series.len())
         .map(|i| {
-            let (a, b, c, d) = (at(i - back - 1), at(i - back), at(i - back + 1), at(i - back + 2));
-            let cubic = 3.0 * (b - c) + d - a;
-            let square = 2.0 * a - 5.0 * b + 4.0 * c - d;
-            b + 0.5 * s * (c - a + s * (square + s * cubic))
+            let at = (i as f64 - delay / step).clamp(0.0, last as f64);
+            let k = (at as usize).min(last - 1);
+            let (b, a) = (at - k as f64, 1.0 - (at - k as f64));
+            let curved = (a.powi(3) - a) * bend[k] + (b.powi(3) - b) * bend[k + 1];
+            a * series[k] + b * series[k + 1] + curved / 6.0
         })
         .collect()
+}
+
+/// Second derivatives, per step squared, of the natural cubic spline through evenly spaced values.
+fn second_differences(y: &[f64]) -> Vec<f64> {
+    let n = y.len();
+    let (mut bend, mut share) = (vec![0.0; n], vec![0.0; n]);
+    // Tridiagonal: m[i-1] + 4 m[i] + m[i+1] = 6 (y[i-1] - 2 y[i] + y[i+1]).
+    for i in 1..n - 1 {
+        let pivot = 4.0 - share[i - 1];
+        share[i] = 1.0 / pivot;
+        bend[i] = (6.0 * (y[i - 1] - 2.0 * y[i] + y[i + 1]) - bend[i - 1]) / pivot;
+    }
+    for i in (1..n - 1).rev() {
+        bend[i] -= share[i] * bend[i + 1];
+    }
+    bend
 }
 
 impl Effect for TimeDelay {
