@@ -20,11 +20,11 @@ pub struct Absorbed {
     /// Up to this size it has less than an even chance of being detected.
     pub up_to: f64,
     /// True where the model absorbs it whatever its size; `up_to` is then the size at which it carries
-    /// [`SHARE`] of the force's rms.
+    /// a twentieth of the force's rms.
     pub whatever_its_size: bool,
 }
 
-/// Effects with less than an even chance of detection even when they carry [`SHARE`] of the force's rms.
+/// Effects with less than an even chance of detection even when they carry a twentieth of the force's rms.
 pub(super) fn absorbed(named: &Named, campaign: &Campaign, false_alarm: f64) -> Vec<Absorbed> {
     let squares: Vec<f64> = campaign
         .recordings()

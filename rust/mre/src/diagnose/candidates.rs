@@ -4,6 +4,7 @@
 use rayon::prelude::*;
 
 use super::begin::starts;
+use super::drift;
 use super::least_squares::{Data, Fitted, Point, refine, refine_at_most};
 use super::noise::Noise;
 use super::screen::{Null, Score};
@@ -81,7 +82,13 @@ pub(super) fn scores(assembly: &Assembly, data: Data, unit: &[f64], seed: u64) -
         assembly.effects().iter().any(|known| known.about().effect == e.about().effect)
     };
     let laws: Vec<&'static dyn Effect> = CATALOGUE.iter().copied().filter(|e| !named(e)).collect();
-    laws.into_par_iter().enumerate().filter_map(|(i, e)| null.score(e, seed ^ i as u64)).collect()
+    let mut found: Vec<Score> =
+        laws.into_par_iter().enumerate().filter_map(|(i, e)| null.score(e, seed ^ i as u64)).collect();
+    let slow = drift::chance(&null.residuals());
+    for score in found.iter_mut().filter(|s| s.effect.slow() && s.p_value < slow) {
+        score.p_value = slow;
+    }
+    found
 }
 
 /// p-value of every effect: the smallest over its laws, times their number.
@@ -100,7 +107,7 @@ pub(super) fn by_effect(scores: &[Score]) -> Vec<(&'static str, f64)> {
 /// The laws that are worth a joint fit, strongest first: a few of each effect, so that the many laws of one do
 /// not crowd out the others.
 fn promising(scores: &[Score], most: usize) -> Vec<&Score> {
-    let mut sorted: Vec<&Score> = scores.iter().filter(|s| s.gain > 0.0).collect();
+    let mut sorted: Vec<&Score> = scores.iter().filter(|s| s.gain > 0.0 && s.p_value < 0.5).collect();
     sorted.sort_by(|a, b| b.gain.total_cmp(&a.gain));
     let best = sorted.first().map_or(0.0, |s| s.gain);
     let mut kept: Vec<&Score> = Vec::new();

@@ -38,6 +38,21 @@ pub(super) fn without_drift(residuals: &[Vec<f64>]) -> Vec<Vec<f64>> {
         .collect()
 }
 
+/// Chance that noise alone looks as much like drift as these residuals.
+pub(super) fn chance(residuals: &[Vec<f64>]) -> f64 {
+    chance_of(&waves(residuals))
+}
+
+fn chance_of(waves: &[Vec<f64>]) -> f64 {
+    let excess: f64 = waves.iter().map(|w| excess(w)).sum();
+    chi_square_tail(excess / CAUTION, SLOW * waves.len())
+}
+
+/// Amplitudes of the half-cosines of each residual.
+fn waves(residuals: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    residuals.iter().map(|e| (1..BESIDE.end).map(|k| amplitude(e, k)).collect()).collect()
+}
+
 /// Half-cosine `k` at a sample, of unit square over `n` samples.
 fn wave(n: usize, k: usize, i: usize) -> f64 {
     (2.0 / n as f64).sqrt() * (PI * k as f64 * (i as f64 + 0.5) / n as f64).cos()

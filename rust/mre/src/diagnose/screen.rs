@@ -98,6 +98,18 @@ impl<'a> Null<'a> {
         &self.assembly
     }
 
+    /// Residuals of the fitted model, N.
+    pub(super) fn residuals(&self) -> Vec<Vec<f64>> {
+        let recordings = self.assembly.campaign().recordings();
+        let pairs = recordings.iter().zip(&self.point.recordings);
+        pairs
+            .map(|(r, local)| {
+                let measured = r.force().unwrap_or_default();
+                measured.iter().zip(&local.force).map(|(f, model)| f - model).collect()
+            })
+            .collect()
+    }
+
     /// What effects see of a recording.
     pub(super) fn scene(&self, r: usize) -> Scene<'_> {
         self.assembly.scene(r)

@@ -47,6 +47,10 @@ impl Effect for Drift {
         }
     }
 
+    fn slow(&self) -> bool {
+        true
+    }
+
     fn of_the_measurement(&self) -> bool {
         true
     }

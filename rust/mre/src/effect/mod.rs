@@ -141,6 +141,12 @@ pub trait Effect: Send + Sync {
         false
     }
 
+    /// True where the effect is so slow that slow noise looks like it: it also has to exceed what the noise's
+    /// spectrum extends to.
+    fn slow(&self) -> bool {
+        false
+    }
+
     /// True where the effect happens at one moment of one recording.
     fn in_one_recording(&self) -> bool {
         false
