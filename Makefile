@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 export CARGO_BUILD_JOBS ?= 2
 STAMP := $(VENV)/.installed
 
-.PHONY: demo test test-rust test-python lint bench figures install clean
+.PHONY: demo test test-rust test-python lint bench figures rivals trials install clean
 
 # The main job: identify the paper's twelve tests (a simulated replica) with both models and all swarms.
 demo: install
@@ -35,6 +35,15 @@ bench:
 figures: install
 	$(BIN)/python benches/real_fits.py
 	$(BIN)/python benches/readings.py
+
+# Other packages on the same problems, side by side; writes benches/README.md.
+rivals: install
+	MATURIN_PEP517_ARGS=--locked $(BIN)/python -m pip install --quiet --no-build-isolation --editable '.[rivals]'
+	$(BIN)/python benches/rivals
+
+# The diagnosis on concealed physics: development seeds.
+trials: install
+	$(BIN)/python benches/discovery.py
 
 install: $(STAMP)
 
