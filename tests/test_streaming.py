@@ -148,3 +148,21 @@ def test_wrong_streams_are_named(recording: Recording) -> None:
         pickle.dumps(Problem.streamed([(x, v, f)], most))
     beyond = Problem.streamed([(x, v, f)], most)
     assert beyond.fitness([1.0, 1.0, 1.0, 1.01 * beyond.upper[3], 0.0]) == np.inf
+
+
+def test_no_uncertainty_without_samples(recording: Recording) -> None:
+    streamed = Problem.streamed(cut(recording, 777), farthest(recording))
+    found = mre_core.hybrid(streamed, seed=1, max_iterations=5)
+    assert found.uncertainty is None
+    assert [line.split()[0] for line in str(found).splitlines()[1:6]] == streamed.names
+    wanted = (
+        f"^problem is {len(recording)} samples streamed, none of which is kept:"
+        " an uncertainty needs a problem of recordings$"
+    )
+    with pytest.raises(MreError, match=wanted):
+        mre_core.uncertainty(streamed, found.x)
+    with pytest.raises(MreError, match=wanted):
+        mre_core.profile(streamed, found.x)
+    with pytest.raises(MreError, match=wanted):
+        mre_core.bootstrap(streamed, found.x, 10, seed=1)
+    assert mre_core.uncertainty(Problem(recording), found.x).parameters

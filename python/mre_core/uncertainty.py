@@ -121,7 +121,8 @@ def uncertainty(problem: Problem, x: ArrayLike, *, level: float = 0.95) -> Uncer
     Raises
     ------
     MreError
-        A level outside (0, 1), parameters that cannot be simulated, or fewer samples than parameters.
+        A level outside (0, 1), parameters that cannot be simulated, fewer samples than parameters, or a
+        problem from `Problem.streamed`, which keeps no samples.
 
     References
     ----------

@@ -12,6 +12,7 @@ use mre::fit::{self, hybrid};
 use mre::fitness::{Problem, Stream, Weights};
 use mre::recording::Recording;
 use mre::swarm::{Budget, Crowd, FishSettings, Neighbourhood, Schedule, Search};
+use mre::uncertainty::{bootstrap, estimate, profile};
 
 fn recording(samples: usize) -> Arc<Recording> {
     Trial { samples, stroke: 4.0, truth: [1.1, 13.7, 14.6, 0.3, 1.0], noise: 1e-2, seed: 1 }.recording()
@@ -125,6 +126,20 @@ fn the_hybrid_needs_no_samples() {
     let found = hybrid(&problem, settings, 1, None, &Budget::default(), &mut |_| true, &never).unwrap();
     let best = fit::exact(&problem, &never);
     assert!(found.cost <= best.cost * (1.0 + 1e-9), "{found:?} {best:?}");
+}
+
+#[test]
+fn an_uncertainty_needs_samples() {
+    let recording = recording(5_000);
+    let problem = streamed(&recording, 1_000, &[]);
+    let (never, x) = (AtomicBool::new(false), exact(&problem).unwrap().values);
+    let wanted = "problem is 5000 samples streamed, none of which is kept: \
+                  an uncertainty needs a problem of recordings";
+    assert_eq!(estimate(&problem, &x, 0.95).unwrap_err().to_string(), wanted);
+    assert_eq!(profile(&problem, &x, 0.95, &never).unwrap_err().to_string(), wanted);
+    assert_eq!(bootstrap(&problem, &x, 10, 0.95, 1, &never).unwrap_err().to_string(), wanted);
+    let whole = common::problem("sinh", std::slice::from_ref(&recording), &[], &Weights::Samples);
+    assert_eq!(estimate(&whole, &x, 0.95).unwrap().parameters.len(), 5);
 }
 
 #[test]

@@ -86,6 +86,10 @@ impl<'a> Local<'a> {
 }
 
 fn check(problem: &Problem, values: &[f64]) -> Result<()> {
+    if problem.recordings().is_empty() {
+        let what = format!("{} samples streamed, none of which is kept", problem.samples());
+        return Err(Error::setting("problem", what, "an uncertainty needs a problem of recordings"));
+    }
     let names: Vec<&str> = problem.parameters().iter().map(|p| p.name.as_str()).collect();
     if values.len() != names.len() {
         return Err(Error::setting("number of parameters", values.len(), names.join(", ")));

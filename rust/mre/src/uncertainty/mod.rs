@@ -71,7 +71,8 @@ pub struct Uncertainty {
 /// least squares under noise that is an autoregression in each recording.
 ///
 /// # Errors
-/// A level outside (0, 1), values that cannot be simulated, or fewer samples than parameters.
+/// A level outside (0, 1), values that cannot be simulated, fewer samples than parameters, or a problem
+/// whose samples were streamed: the noise follows from residuals that it does not have.
 pub fn estimate(problem: &Problem, values: &[f64], level: f64) -> Result<Uncertainty> {
     check_level(level)?;
     let local = Local::new(problem, values)?;
