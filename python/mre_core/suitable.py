@@ -11,8 +11,8 @@ from .errors import InputError
 _AGAINST = -0.5
 """Correlation of force and displacement below which their signs cannot agree."""
 _GIVES = -0.1
-"""Correlation of force and rate of displacement below which a device gives out energy, at least one of several
-recordings that all do."""
+"""Correlation of force and rate of displacement below which a device gives out energy; of several recordings,
+one at least of those that all do."""
 _JUMPS = 1.5
 """Mean squared step over the variance: 2 for noise, small for motion."""
 _LEAST = 20
