@@ -25,12 +25,7 @@ fn mafsa(problem: &Problem, iterations: usize) {
     };
     let Ok(mut swarm) = FishSwarm::new(settings, d, 1, None) else { return };
     let never = AtomicBool::new(false);
-    let mut physical = Vec::new();
-    let mut evaluate = |unit: &[f64], costs: &mut [f64]| {
-        physical.resize(unit.len(), 0.0);
-        problem.bounds().to_physical(unit, &mut physical);
-        problem.fitness(&physical, costs, &never);
-    };
+    let mut evaluate = |unit: &[f64], costs: &mut [f64]| problem.fitness_in_box(unit, costs, &never);
     run(&mut swarm, &mut evaluate, d, &Budget::default(), &mut |_| true);
 }
 

@@ -131,58 +131,93 @@ impl Problem {
         if let Kernel::Sinh(kernel) = &*self.kernel { kernel.compressed() } else { None }
     }
 
-    /// Fitness in N^2 of many candidates, one row each, in parallel on the current thread pool.
+    /// True where so few candidates are evaluated on the calling thread alone, outside any thread pool: the
+    /// work is not worth sharing.
+    pub fn on_one_thread(&self, candidates: usize) -> bool {
+        match &*self.kernel {
+            Kernel::Sinh(kernel) => candidates < 2 * kernel.grain(),
+            Kernel::BoucWen(_) => candidates <= LANES,
+            Kernel::Terms => candidates < 2 * self.grain_of_terms(),
+        }
+    }
+
+    /// Fitness in N^2 of candidates, one row each, in parallel on the current thread pool where there are
+    /// many.
     ///
     /// A candidate that cannot be simulated costs infinity, as does one with a beta outside the box where
     /// the samples were streamed. After `cancel` is set, NaN stands for those that were not evaluated. The
     /// values do not depend on the number of threads or on the other candidates.
     pub fn fitness(&self, rows: &[f64], out: &mut [f64], cancel: &AtomicBool) {
-        let d = self.parameters.len();
         match &*self.kernel {
             Kernel::BoucWen(kernels) => self.by_blocks(kernels, rows, out, cancel),
-            Kernel::Sinh(kernel) => kernel.sums_of_squares(rows, out, cancel),
-            Kernel::Terms => self.one_by_one(rows, out, d, cancel),
+            Kernel::Sinh(kernel) => kernel.sums_of_squares(rows, <[f64]>::copy_from_slice, out, cancel),
+            Kernel::Terms => self.one_by_one(rows, out, cancel),
         }
     }
 
-    fn one_by_one(&self, rows: &[f64], out: &mut [f64], d: usize, cancel: &AtomicBool) {
+    /// [`Problem::fitness`] of points of the unit box.
+    pub fn fitness_in_box(&self, unit: &[f64], out: &mut [f64], cancel: &AtomicBool) {
+        let place = |to: &mut [f64], unit: &[f64]| self.bounds.to_physical(unit, to);
+        if let Kernel::Sinh(kernel) = &*self.kernel {
+            kernel.sums_of_squares(unit, place, out, cancel);
+        } else {
+            let mut rows = vec![0.0; unit.len()];
+            place(&mut rows, unit);
+            self.fitness(&rows, out, cancel);
+        }
+    }
+
+    /// Candidates that keep a thread busy for a millisecond or so.
+    fn grain_of_terms(&self) -> usize {
         let samples: usize = self.recordings.iter().map(|r| r.len()).sum();
-        let grain = (100_000 / samples).max(1);
-        rows.par_chunks(d).zip(out.par_iter_mut()).with_min_len(grain).for_each_init(
-            Scratch::default,
-            |scratch, (row, out)| {
-                *out = if cancel.load(Ordering::Relaxed) {
-                    f64::NAN
-                } else {
-                    finite_or_infinite(self.term_by_term(scratch, row))
-                };
-            },
-        );
+        (100_000 / samples).max(1)
+    }
+
+    fn one_by_one(&self, rows: &[f64], out: &mut [f64], cancel: &AtomicBool) {
+        let d = self.parameters.len();
+        let one = |scratch: &mut Scratch, (row, out): (&[f64], &mut f64)| {
+            *out = if cancel.load(Ordering::Relaxed) {
+                f64::NAN
+            } else {
+                finite_or_infinite(self.term_by_term(scratch, row))
+            };
+        };
+        if self.on_one_thread(out.len()) {
+            let mut scratch = Scratch::default();
+            rows.chunks(d).zip(out).for_each(|pair| one(&mut scratch, pair));
+        } else {
+            let pairs = rows.par_chunks(d).zip(out.par_iter_mut());
+            pairs.with_min_len(self.grain_of_terms()).for_each_init(Scratch::default, one);
+        }
     }
 
     fn by_blocks(&self, kernels: &[BoucWenRk4], rows: &[f64], out: &mut [f64], cancel: &AtomicBool) {
         let d = self.parameters.len();
+        let row = |i: usize| &rows[i * d..(i + 1) * d];
+        let one = |block: &[usize]| {
+            let mut total = [0.0; LANES];
+            if cancel.load(Ordering::Relaxed) {
+                return [f64::NAN; LANES];
+            }
+            let rows: [&[f64]; LANES] = std::array::from_fn(|l| row(block[l.min(block.len() - 1)]));
+            let mut sums = [0.0; LANES];
+            for (kernel, weight) in kernels.iter().zip(&self.weights) {
+                kernel.sums_of_squares(&rows[..block.len()], &mut sums[..block.len()]);
+                for (total, sum) in total.iter_mut().zip(&sums) {
+                    *total += weight * sum;
+                }
+            }
+            total.map(finite_or_infinite)
+        };
         let mut order: Vec<usize> = (0..out.len()).collect();
-        // Alike candidates side by side: a block takes as long as its stiffest lane.
-        order.sort_by(|a, b| BoucWenRk4::cost(&rows[a * d..]).total_cmp(&BoucWenRk4::cost(&rows[b * d..])));
-        let costs: Vec<[f64; LANES]> = order
-            .par_chunks(LANES)
-            .map(|chunk| {
-                let mut total = [0.0; LANES];
-                if cancel.load(Ordering::Relaxed) {
-                    return [f64::NAN; LANES];
-                }
-                let block: Vec<&[f64]> = chunk.iter().map(|i| &rows[i * d..(i + 1) * d]).collect();
-                let mut sums = [0.0; LANES];
-                for (kernel, weight) in kernels.iter().zip(&self.weights) {
-                    kernel.sums_of_squares(&block, &mut sums[..block.len()]);
-                    for (total, sum) in total.iter_mut().zip(&sums) {
-                        *total += weight * sum;
-                    }
-                }
-                total.map(finite_or_infinite)
-            })
-            .collect();
+        // Alike candidates side by side: a block takes as long as its stiffest lane. The stiffest first,
+        // block by block, so that no thread is left with all of them.
+        order.sort_by(|a, b| BoucWenRk4::cost(row(*b)).total_cmp(&BoucWenRk4::cost(row(*a))));
+        let costs: Vec<[f64; LANES]> = if self.on_one_thread(out.len()) {
+            order.chunks(LANES).map(one).collect()
+        } else {
+            order.par_chunks(LANES).with_max_len(1).map(one).collect()
+        };
         for (k, i) in order.into_iter().enumerate() {
             out[i] = costs[k / LANES][k % LANES];
         }

@@ -16,6 +16,16 @@ pub(super) enum Wait {
     },
 }
 
+impl Wait {
+    /// Rows that are asked for.
+    pub(super) fn rows(self) -> usize {
+        match self {
+            Self::Arrival => 1,
+            Self::Looks { count, .. } => count,
+        }
+    }
+}
+
 /// What a searching fish does after its looks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Outcome {
@@ -34,14 +44,6 @@ pub(super) fn first_round(settings: &FishSettings) -> Wait {
     match settings.search {
         Search::Best => Wait::Looks { count: settings.try_number, before: 0 },
         Search::Step => Wait::Looks { count: 1, before: 0 },
-    }
-}
-
-/// Rows that a fish asks for at once, at most.
-pub(super) fn most_rows(settings: &FishSettings) -> usize {
-    match first_round(settings) {
-        Wait::Looks { count, .. } => count.max(1),
-        Wait::Arrival => 1,
     }
 }
 
