@@ -14,6 +14,8 @@ use crate::recording::Recording;
 const WIDTH: usize = 5;
 /// Fewer samples than this for every column of the factor: the direct kernel is as fast.
 const WORTHWHILE: usize = 4;
+/// Candidates that are worked on together.
+const PART: usize = 8 * LANES;
 /// Candidates of the compressed kernel that keep a thread busy for longer than it takes to hand them over.
 const GRAIN: usize = 256;
 
@@ -73,19 +75,19 @@ impl Sinh {
                 out.fill(f64::NAN);
                 return;
             }
-            let mut candidates = [0.0; WIDTH * LANES];
+            let mut candidates = [0.0; WIDTH * PART];
             let candidates = &mut candidates[..rows.len()];
             place(candidates, rows);
-            self.block(candidates, out);
+            self.some(candidates, out);
         };
-        let block = if self.compressed.is_some() { LANES } else { 1 };
+        let part = if self.compressed.is_some() { PART } else { 1 };
         let grain = self.grain();
         if out.len() < 2 * grain {
-            rows.chunks(block * WIDTH).zip(out.chunks_mut(block)).for_each(some);
+            rows.chunks(part * WIDTH).zip(out.chunks_mut(part)).for_each(some);
         } else {
-            rows.par_chunks(block * WIDTH)
-                .zip(out.par_chunks_mut(block))
-                .with_min_len((grain / block).max(1))
+            rows.par_chunks(part * WIDTH)
+                .zip(out.par_chunks_mut(part))
+                .with_min_len((grain / part).max(1))
                 .for_each(some);
         }
     }
@@ -95,9 +97,11 @@ impl Sinh {
         if self.compressed.is_some() { GRAIN } else { (100 * GRAIN / self.samples).max(1) }
     }
 
-    fn block(&self, rows: &[f64], out: &mut [f64]) {
+    fn some(&self, rows: &[f64], out: &mut [f64]) {
         if let Some(compressed) = &self.compressed {
-            compressed.sums_of_squares(rows, out);
+            for (rows, out) in rows.chunks(LANES * WIDTH).zip(out.chunks_mut(LANES)) {
+                compressed.sums_of_squares(rows, out);
+            }
         }
         for (row, out) in rows.chunks_exact(WIDTH).zip(out) {
             if !self.compressed.as_ref().is_some_and(|c| c.holds(row)) {

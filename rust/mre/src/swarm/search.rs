@@ -49,13 +49,13 @@ pub(super) fn first_round(settings: &FishSettings) -> Wait {
 
 /// Judge looks by their costs against the cost where the fish stands.
 pub(super) fn judge(costs: &[f64], before: usize, own: f64, settings: &FishSettings) -> Outcome {
-    let mut best = 0;
+    let (mut best, mut least) = (0, own);
     for (look, cost) in costs.iter().enumerate() {
-        if *cost < costs[best] {
-            best = look;
+        if *cost < least {
+            (best, least) = (look, *cost);
         }
     }
-    if costs[best] < own {
+    if least < own {
         match settings.search {
             Search::Best => Outcome::Jump(best),
             Search::Step => Outcome::StepTowards(best),
