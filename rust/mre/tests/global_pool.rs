@@ -21,7 +21,7 @@ fn small_work_starts_no_pool() {
     ] {
         let problem =
             with_threads(1, || problem(model, std::slice::from_ref(&recording), &bounds, &Weights::Samples));
-        let most = (1..).take_while(|count| problem.on_one_thread(*count)).last().unwrap();
+        let most = (1..10_000).take_while(|count| problem.on_one_thread(*count)).last().unwrap();
         fitness(&problem, &problem.bounds().upper().repeat(most));
     }
     let settings = FishSettings {

@@ -126,7 +126,7 @@ impl FishSwarm {
         let mean = self.mean_food();
         let (mut asked, mut streams) = (std::mem::take(&mut self.asked), std::mem::take(&mut self.streams));
         asked.clear();
-        for fish in 0..self.settings.fish {
+        for (fish, stream) in streams.iter_mut().enumerate() {
             let follows = food(self.costs[fish]) < mean;
             let view = self.view();
             let target = if follows {
@@ -136,7 +136,7 @@ impl FishSwarm {
             };
             if let Some(target) = target {
                 let place = asked.add(fish, Wait::Arrival);
-                towards(view.position(fish), target, self.step, &mut streams[fish], place);
+                towards(view.position(fish), target, self.step, stream, place);
                 let counter = if follows { &mut self.behaviours.follow } else { &mut self.behaviours.swarm };
                 *counter += 1;
             } else {
