@@ -22,10 +22,10 @@ impl Bulletin {
     pub(super) fn note(&mut self, points: &[f64], costs: &[f64]) {
         let d = self.position.len();
         let none_before = self.evaluations == 0;
-        self.evaluations += costs.iter().filter(|cost| !cost.is_nan()).count() as u64;
-        self.failures += costs.iter().filter(|cost| cost.is_infinite()).count() as u64;
-        let mut best = costs.iter().position(|cost| none_before && !cost.is_nan());
+        let mut best = if none_before { costs.iter().position(|cost| !cost.is_nan()) } else { None };
         for (i, cost) in costs.iter().enumerate() {
+            self.evaluations += u64::from(!cost.is_nan());
+            self.failures += u64::from(cost.is_infinite());
             if cost.is_finite() && *cost < self.cost {
                 (best, self.cost) = (Some(i), *cost);
             }

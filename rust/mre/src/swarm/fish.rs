@@ -126,11 +126,12 @@ impl FishSwarm {
         let mean = self.mean_food();
         let (mut asked, mut streams) = (std::mem::take(&mut self.asked), std::mem::take(&mut self.streams));
         asked.clear();
+        let leader = self.view().best(0..self.settings.fish);
         for (fish, stream) in streams.iter_mut().enumerate() {
             let follows = food(self.costs[fish]) < mean;
             let view = self.view();
             let target = if follows {
-                follow::target(&view, fish, &self.settings)
+                follow::target(&view, leader, fish, &self.settings)
             } else {
                 self.centres.target(&view, centre_costs, fish, &self.settings)
             };
