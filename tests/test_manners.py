@@ -102,7 +102,8 @@ def job(seed):
         costs += [problem.fitness(middle), *problem.fitness(np.tile(middle, (1000, 1)))[-2:]]
         costs.append(mre_core.mafsa(problem, seed=seed, max_iterations=2, n_fish=10).fun)
     # Whole generations are drawn on this thread.
-    return costs + [mre_core.mafsa(lambda p: (p**2).sum(axis=1), [(-1, 1)] * 5, seed=seed, max_iterations=2).fun]
+    bowl = mre_core.mafsa(lambda p: (p**2).sum(axis=1), [(-1, 1)] * 5, seed=seed, max_iterations=2)
+    return [*costs, bowl.fun]
 
 if __name__ == "__main__":
     here = [job(seed) for seed in (1, 2, 3)]  # threads have run in the parent before it is forked
