@@ -16,6 +16,7 @@ from .arguments import spread
 from .demo import demo
 from .diagnose import diagnose
 from .identify import identify
+from .next_test import next_test
 from .simulate import simulate
 
 
@@ -33,7 +34,7 @@ def cli() -> None:
     """  # noqa: D301  # \b keeps the lines
 
 
-for command in (identify, diagnose, simulate, demo):
+for command in (identify, diagnose, next_test, simulate, demo):
     cli.add_command(command)
 
 
