@@ -11,6 +11,9 @@ if TYPE_CHECKING:
 
     from ..study import Study
 
+_MANY = 100
+"""Runs of a part from which on a quarter of them is worth a line."""
+
 OnProgress = Callable[[str, int, int], None]
 
 
@@ -36,6 +39,8 @@ def stages() -> Iterator[OnProgress]:
             tasks[what] = bars.add_task(what, total=total)
             if not err.is_terminal:
                 err.print(f"{what}: {total} {'run' if total == 1 else 'runs'}")
+        elif not err.is_terminal and done < total >= _MANY and done % (total // 4) == 0:
+            err.print(f"{what}: {done} of {total}")
         bars.update(tasks[what], completed=done)
 
     with bars:

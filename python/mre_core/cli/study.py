@@ -54,8 +54,14 @@ def study(
     from ..study import study as run
     from .show_study import print_study, stages
 
-    if not recordings and (given := exclude or mapping or conditions or name_pattern):
-        raise InputError(f"{given!r} is given without recordings", wanted="--recordings FILE... beside it")
+    of_recordings = {
+        "--exclude": exclude,
+        "--map": mapping,
+        "--set": conditions,
+        "--name-pattern": name_pattern,
+    }
+    if not recordings and (given := [name for name, value in of_recordings.items() if value]):
+        raise InputError(f"{given[0]} is given without recordings", wanted="--recordings FILE... beside it")
     loaded = load_all(recordings, mapping, conditions, name_pattern)
     if exclude is not None:
         parts = [part.strip() for part in exclude.split(",")]

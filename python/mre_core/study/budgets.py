@@ -6,19 +6,18 @@ from typing import Any
 import numpy as np
 
 from .._core import Problem
-from ..fits import exact
 from ..results import SwarmResult
 from ..swarms import afsa, mafsa, pso
 from .campaign import Case
 from .crew import Crew
 from .effort import Effort
 from .paper import ITERATIONS
-from .swarm_runs import curve_by_evaluations, curve_by_iteration, lower_share, seeds, summarise
+from .swarm_runs import best_known, curve_by_evaluations, curve_by_iteration, lower_share, seeds, summarise
 
 Runs = dict[str, list[SwarmResult]]
 
 _PARTICLES = 50
-_SMALL = {"n_fish": 10, "try_number": 4}
+_SMALL = {"n_fish": 10, "try_number": 8}
 """A MAFSA whose iteration costs about what one of 50 particles costs."""
 _ENDLESS = 100_000
 """Iterations of a run that its budget of evaluations ends."""
@@ -27,7 +26,7 @@ _ENDLESS = 100_000
 def run_budgets(case: Case, effort: Effort, seed: int, crew: Crew) -> dict[str, Any]:
     """Run all algorithms from every seed under three budgets."""
     problem = Problem(case.recording, "sinh")
-    optimum = exact(problem, threads=1).fitness
+    optimum = best_known(problem)
     first = seeds(seed, effort.seeds)
 
     def together(what: str, settings: Mapping[str, tuple[Any, dict[str, Any]]]) -> Runs:
@@ -64,7 +63,7 @@ def run_budgets(case: Case, effort: Effort, seed: int, crew: Crew) -> dict[str, 
             {
                 "AFSA": (afsa, {**afsa_on, "max_evaluations": small}),
                 f"MAFSA, {short} iterations": (mafsa, {"max_iterations": short, "max_evaluations": small}),
-                "MAFSA, 10 fish, 4 looks": (mafsa, {**same, **_SMALL, "max_evaluations": small}),
+                "MAFSA, 10 fish, 8 looks": (mafsa, {**same, **_SMALL, "max_evaluations": small}),
             },
         ),
     }

@@ -5,11 +5,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .._core import Recording
+from .._core import Problem, Recording
 from ..errors import InputError
 from ..grouping import group_by_current
 from ..replica import CAMPAIGN, record
 
+_LEAST = 20
+"""Samples that are scored."""
 _SAME = 1.1
 """Ratio of amplitudes up to which they are one level."""
 
@@ -18,16 +20,13 @@ _SAME = 1.1
 class Case:
     """One test: a recording with its levels."""
 
+    name: str
+    """Of the recording; no other of the campaign has it."""
     recording: Recording
     current: float | None
     """A; None where it is not known."""
     amplitude: float
     """Half the stroke, mm."""
-
-    @property
-    def name(self) -> str:
-        """Of the recording."""
-        return self.recording.name
 
 
 @dataclass(frozen=True)
@@ -96,28 +95,49 @@ def as_campaign(recordings: Sequence[Recording]) -> Campaign:
 
     Raises
     ------
-    InputError
-        There are none, one has no force or does not move, a current changes inside a recording, or only
-        some currents are known.
+    MreError
+        There are none, one has no force or too few samples, does not move or has a force that never changes,
+        a current changes inside a recording, only some currents are known, or a model cannot be fitted.
     """
-    strokes = {}
-    for recording in recordings:
-        name = f"recording '{recording.name}'"
-        if recording.force is None:
-            raise InputError(f"{name} has no force", wanted="a force to identify from")
-        if recording.current_varies:
-            raise InputError(f"{name} has a current that changes", wanted="one constant current each")
-        scored = recording.displacement[slice(*recording.scored)]
-        strokes[id(recording)] = float(np.ptp(scored)) / 2
-        if not strokes[id(recording)] > 0:
-            raise InputError(f"{name} does not move", wanted="a displacement that changes")
-    amplitudes = _levels(sorted(strokes.values()))
-    cases = [
-        Case(recording, current, amplitudes[strokes[id(recording)]])
-        for current, members in group_by_current(recordings)
-        for recording in members
-    ]
+    if not recordings:
+        raise InputError("recordings are an empty list", wanted="at least one recording")
+    strokes = [_stroke(recording) for recording in recordings]
+    amplitudes = _levels(sorted(strokes))
+    levels = [amplitudes[stroke] for stroke in strokes]
+    cases = []
+    for current, members in group_by_current(recordings):
+        for member in members:
+            place = next(i for i, recording in enumerate(recordings) if recording is member)
+            cases.append(Case(_name(recordings, place), member, current, levels[place]))
     return Campaign(tuple(cases))
+
+
+def _stroke(recording: Recording) -> float:
+    """Half the stroke of a recording that can be studied."""
+    name = f"recording '{recording.name}'"
+    if recording.force is None:
+        raise InputError(f"{name} has no force", wanted="a force to identify from")
+    if recording.current_varies:
+        raise InputError(f"{name} has a current that changes", wanted="one constant current each")
+    scored = slice(*recording.scored)
+    x, force = recording.displacement[scored], recording.force[scored]
+    if len(x) < _LEAST:
+        raise InputError(f"{name} has {len(x)} samples", wanted=f"at least {_LEAST}")
+    for what, values in (("displacement", x), ("force", force)):
+        if np.ptp(values) == 0:
+            raise InputError(
+                f"the {what} of {name} is {values[0]:.6g} throughout", wanted=f"a {what} that changes"
+            )
+    for model in ("sinh", "bouc_wen"):
+        Problem(recording, model)  # says now what it would say after minutes of work
+    return float(np.ptp(x)) / 2
+
+
+def _name(recordings: Sequence[Recording], place: int) -> str:
+    """Name of a recording, with a number where others before have the same."""
+    names = [recording.name or "recording" for recording in recordings[: place + 1]]
+    before = names.count(names[-1])
+    return names[-1] if before == 1 else f"{names[-1]} ({before})"
 
 
 def _levels(rising: list[float]) -> dict[float, float]:

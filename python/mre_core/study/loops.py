@@ -8,6 +8,7 @@ from ..identify import Identification, identify
 from ..model import simulate
 from .campaign import Case
 from .crew import Crew
+from .paper import RELATIVE_ERROR
 
 
 def identified(case: Case, seed: int, crew: Crew) -> Identification:
@@ -30,7 +31,8 @@ def loop(case: Case, found: Identification) -> dict[str, Any]:
     dict
         One cycle about the largest force: time (s, from its start), displacement (mm), velocity (mm/s),
         measured and predicted force (N); over all that is scored: rms error (N), its share of the force's,
-        largest error and largest force (N), parameters, gap to the exact optimum.
+        largest error and largest force (N), share of samples within the bound of Figure 5, parameters, gap to
+        the exact optimum.
     """
     recording, run, fit = case.recording, found.result, found.fits[0]
     assert recording.force is not None  # a Case has one
@@ -38,6 +40,7 @@ def loop(case: Case, found: Identification) -> dict[str, Any]:
     scored = np.zeros(len(recording), bool)
     scored[slice(*recording.scored)] = True
     error = (predicted - recording.force)[scored]
+    largest = float(np.abs(recording.force[scored]).max())
     shown = _cycle(recording.time, np.abs(recording.force) * scored, scored, found)
     time = recording.time[shown]
     return {
@@ -47,8 +50,9 @@ def loop(case: Case, found: Identification) -> dict[str, Any]:
         "parameters": run.values,
         "rms_N": fit.rms,
         "relative_rms": fit.relative_rms,
+        "within_bound": float(np.mean(np.abs(error) <= RELATIVE_ERROR * largest)),
         "largest_error_N": float(np.abs(error).max()),
-        "largest_force_N": float(np.abs(recording.force[scored]).max()),
+        "largest_force_N": largest,
         "fitness_N2": run.fitness,
         "gap": run.gap,
         "time_s": (time - time[0]).tolist(),

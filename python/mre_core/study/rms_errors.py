@@ -17,6 +17,8 @@ from .swarm_runs import seeds
 
 BETTER = 0.01
 """Share of the rms error by which a model has to be better to count as better."""
+_ROUNDING = 1e-6
+"""Share of the force's rms below which an error is rounding."""
 SEARCHES = {"pso": "PSO", "classical_pso": "PSO, eq. 1 and 2 as written", "mafsa": "MAFSA"}
 _SWARMS: dict[str, Callable[..., SwarmResult]] = {"pso": pso, "classical_pso": classical_pso, "mafsa": mafsa}
 
@@ -76,9 +78,14 @@ def _row(case: Case, found: dict[str, list[float]]) -> dict[str, Any]:
         "current_A": case.current,
         "amplitude_mm": case.amplitude,
         "force_rms_N": force,
-        "sinh": {**sinh, "best": min(min(rms) for rms in sinh.values())},
-        "bouc_wen": {**found, "best": min(min(rms) for rms in found.values())},
+        "sinh": {**sinh, "best": _best(sinh, force)},
+        "bouc_wen": {**found, "best": _best(found, force)},
     }
+
+
+def _best(found: dict[str, list[float]], force: float) -> float:
+    """Smallest error that is known, or where that is as good as zero, what rounding makes of it."""
+    return max(min(min(rms) for rms in found.values()), _ROUNDING * force)
 
 
 def summarise_errors(rows: list[dict[str, Any]]) -> dict[str, Any]:

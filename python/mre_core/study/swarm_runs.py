@@ -6,6 +6,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .._core import Problem
+from ..fits import exact
 from ..results import SwarmResult
 
 QUANTILES = {"smallest": 0.0, "lower": 0.1, "median": 0.5, "upper": 0.9, "largest": 1.0}
@@ -17,6 +19,14 @@ SETTLED = 0.05
 CONVERGED = 0.01
 """Share of its final fitness by which a converged run still improves."""
 _POINTS = 120
+_ROUNDING = 1e-12
+"""Share of the mean squared force below which a fitness is rounding."""
+
+
+def best_known(problem: Problem) -> float:
+    """Fitness at the exact optimum, or where that is as good as zero, what rounding makes of it."""
+    power = np.mean([np.mean(np.square(r.force)) for r in problem.recordings if r.force is not None])
+    return max(exact(problem, threads=1).fitness, float(_ROUNDING * power))
 
 
 def seeds(first: int, count: int) -> list[int]:
