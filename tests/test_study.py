@@ -6,9 +6,10 @@ import re
 import subprocess
 from collections import Counter
 from collections.abc import Iterator
+from dataclasses import dataclass
 from html.parser import HTMLParser
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import pytest
@@ -41,7 +42,8 @@ FIGURES = {
 STEMS = [stem for stems in FIGURES.values() for stem in stems]
 
 
-class Quick(NamedTuple):
+@dataclass(frozen=True)
+class Quick:
     folder: Path
     run: subprocess.CompletedProcess[str]
     content: Any

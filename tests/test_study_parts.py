@@ -189,13 +189,13 @@ def test_a_summary_against_its_definitions() -> None:
     assert found["gap"]["largest"] == pytest.approx(final.max() / 0.5 - 1)
     assert found["found"] == np.mean(final <= 0.505)
     assert found["evaluations"]["median"] == 60
-    for name, level in (
-        ("settled", lambda best: best[-1] + 0.05 * (best[0] - best[-1])),
-        ("converged", lambda best: 1.01 * best[-1]),
-    ):
-        when = [
-            next(i for i, b in enumerate(r.history["best"]) if b <= level(r.history["best"])) for r in made
-        ]
+    best = [run.history["best"] for run in made]
+    levels = {
+        "settled": [b[-1] + 0.05 * (b[0] - b[-1]) for b in best],
+        "converged": [1.01 * b[-1] for b in best],
+    }
+    for name, level in levels.items():
+        when = [next(i for i, y in enumerate(b) if y <= end) for b, end in zip(best, level, strict=True)]
         assert found[name]["iteration"]["median"] == np.median(when)
         assert found[name]["evaluations"]["median"] == np.median([6 * (i + 1) for i in when])
 

@@ -44,7 +44,8 @@ def run_budgets(case: Case, effort: Effort, seed: int, crew: Crew) -> dict[str, 
     by_iterations = together("Figure 13", {"AFSA": (afsa, same), "PSO": (pso, same), "MAFSA": (mafsa, same)})
     large = round(float(np.median([run.n_evaluations for run in by_iterations["MAFSA"]])))
     small = by_iterations["PSO"][0].n_evaluations
-    short = max(1, ITERATIONS * small // large)
+    spent = np.median([run.history["evaluations"] for run in by_iterations["MAFSA"]], axis=0)
+    short = max(1, int(np.argmax(spent >= small)))
     afsa_on = {"max_iterations": _ENDLESS}
     by_large = {
         "MAFSA": by_iterations["MAFSA"],

@@ -130,6 +130,8 @@ def _claims(summaries: dict[str, Any]) -> Iterable[Claim]:
         "reproduced" if not fails else "depends" if holds else "contradicted",
         "With both at their best, the sinh model is better in "
         + "; ".join(f"{s['sinh_better']} of {s['tests']} tests ({device})" for device, s in summaries.items())
+        + ". With Bouc-Wen by a median run of PSO it is in "
+        + ", ".join(f"{s['searches']['pso']['sinh_better']}" for s in summaries.values())
         + ".",
     )
     searched = [s["searches"]["pso"] for s in summaries.values()]
