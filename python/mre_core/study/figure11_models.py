@@ -137,10 +137,11 @@ def _claims(summaries: dict[str, Any]) -> Iterable[Claim]:
     searched = [s["searches"]["pso"] for s in summaries.values()]
     excess = max(x["median_excess"] for x in searched)
     worst = max(x["largest_excess"] for x in searched)
+    larger = max(s["median_ratio"] for s in summaries.values())
     ratio = "; ".join(f"{s['median_ratio']:.2f} ({device})" for device, s in summaries.items())
     yield Claim(
         "Bouc-Wen's larger error comes from its higher degree of nonlinearity.",
-        "depends",
+        "contradicted" if larger <= 1 else "depends" if worst > BETTER else "reproduced",
         f"Part of it can be the search: a single PSO run on Bouc-Wen ends up to {100 * worst:.0f} % above"
         f" the best rms error known, {100 * excess:.0f} % in the median of the device where that is largest."
         f" The rest is the shape of the model: best Bouc-Wen over best sinh is, in the median, {ratio}.",

@@ -93,7 +93,7 @@ def _claims(budgets: dict[str, Any]) -> Sequence[Claim]:
     large, small = budgets["evaluations_of_mafsa"], budgets["evaluations_of_pso"]
 
     def gap(of: dict[str, Any], name: str, which: str = "median") -> str:
-        return f"{100 * of[name]['gap'][which]:.3g} %"
+        return f"{round(100 * of[name]['gap'][which], 3):.4g} %"
 
     def when(name: str, end: str, by: str) -> float:
         return float(by_iteration[name][end][by]["median"])

@@ -92,7 +92,7 @@ def section(campaign: Campaign, seed: int, crew: Crew) -> Section:
 
 
 def _loops(rows: Sequence[dict[str, Any]], abscissa: str, label: str) -> "Figure":
-    fig = figure(6.5, 4.6)
+    fig = figure(7.2, 4.4)
     axis = fig.subplots()
     for line, row in zip(LINES * (len(rows) // len(LINES) + 1), rows, strict=False):
         axis.plot(row[abscissa], row["measured_N"], color="0.7", linewidth=2.4)
@@ -101,5 +101,10 @@ def _loops(rows: Sequence[dict[str, Any]], abscissa: str, label: str) -> "Figure
         )
     axis.set_xlabel(label)
     axis.set_ylabel("force / N")
-    axis.legend(title="grey: measured; lines: model", fontsize="small", title_fontsize="small")
+    fig.legend(
+        title="grey: measured\nlines: model",
+        fontsize="small",
+        title_fontsize="small",
+        loc="outside right upper",
+    )
     return fig
