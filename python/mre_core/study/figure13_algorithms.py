@@ -151,10 +151,8 @@ def _claims(budgets: dict[str, Any]) -> Sequence[Claim]:
         Claim(
             "MAFSA reaches its optimum more quickly than PSO.",
             _verdict(quicker),
-            f"It is ahead in {sum(quicker)} of {len(quicker)} of the ways to count above: ahead by"
-            " iterations, behind by evaluations."
-            if quicker == [True, False, True, False]
-            else f"It is ahead in {sum(quicker)} of {len(quicker)} of the ways to count above.",
+            f"It is ahead in {sum(quicker)} of {len(quicker)} ways to count: settled or converged, by"
+            " iterations or by evaluations.",
         ),
         Claim(
             "MAFSA identifies more accurately than PSO.",
