@@ -5,11 +5,15 @@ BIN := $(VENV)/bin
 export CARGO_BUILD_JOBS ?= 2
 STAMP := $(VENV)/.installed
 
-.PHONY: demo test test-rust test-python lint bench figures rivals trials install clean
+.PHONY: demo study test test-rust test-python lint bench figures rivals trials install clean
 
 # The main job: identify the paper's twelve tests (a simulated replica) with both models and all swarms.
 demo: install
 	$(BIN)/mre-core demo --out demo
+
+# Section 4 of the paper, claim by claim; the figures of docs/paper.md.
+study: install
+	$(BIN)/mre-core study --out study
 
 test: test-rust test-python
 
@@ -31,10 +35,9 @@ lint: install
 bench:
 	cargo bench --locked -p mre-bench
 
-# The figures of the README: fits of real recordings, and the readings of the paper.
+# The figures of the README: fits of real recordings.
 figures: install
 	$(BIN)/python benches/real_fits.py
-	$(BIN)/python benches/readings.py
 
 # Other packages on the same problems, side by side; writes benches/README.md.
 rivals: install
@@ -55,4 +58,4 @@ $(STAMP): pyproject.toml Cargo.toml Cargo.lock $(shell find rust python -name '*
 	touch $(STAMP)
 
 clean:
-	rm -rf $(VENV) target demo
+	rm -rf $(VENV) target demo study

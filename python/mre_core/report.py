@@ -1,17 +1,15 @@
 """A diagnosis as one page for a person: no network, no scripts, everything in the file."""
 
-import io
-import re
 from collections.abc import Iterable, Sequence
 from html import escape
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .svg import inline_svg
 from .words import interval
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
     from .diagnosis import Diagnosis, History, MissingEffect
@@ -92,20 +90,8 @@ def _figures(histories: "Sequence[History]") -> Iterable[str]:
     for number, history in enumerate(worst):
         name = escape(history.recording)
         caption = f"{name}: force against displacement, and what each model leaves over time."
-        drawing = _svg(plot_diagnosis(history), f"figure{number}")
+        drawing = inline_svg(plot_diagnosis(history), f"figure{number}")
         yield f"<figure>{drawing}<figcaption>{caption}</figcaption></figure>"
-
-
-def _svg(figure: "Figure", salt: str) -> str:
-    """Drawing to stand in a page: the same bytes each time, names that differ between drawings."""
-    import matplotlib
-
-    text = io.StringIO()
-    with matplotlib.rc_context({"svg.hashsalt": salt, "svg.fonttype": "none"}):
-        figure.savefig(text, format="svg", metadata={"Date": None})
-    drawing = text.getvalue()
-    drawing = re.sub(r"<metadata>.*?</metadata>", "", drawing[drawing.index("<svg") :], flags=re.DOTALL)
-    return re.sub(r'(\bid="|href="#|url\(#)', rf"\g<1>{salt}-", drawing)
 
 
 def _rms(found: "Diagnosis") -> Iterable[str]:

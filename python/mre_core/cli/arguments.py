@@ -19,17 +19,18 @@ WHOLE = click.IntRange(-(2**63), 2**63 - 1, clamp=False)
 """Whole numbers that the core can take; their ranges are checked there."""
 
 _PAIRS = ("--map", "--set")
+_FILES = ("--recordings",)
 
 
 def spread(arguments: Sequence[str]) -> list[str]:
-    """Let ``--map a=b c=d`` stand for ``--map a=b --map c=d``."""
+    """Let ``--map a=b c=d`` stand for ``--map a=b --map c=d``, and ``--recordings`` take several files."""
     out: list[str] = []
     option = ""
     for argument in arguments:
         role = argument.partition("=")[0]
         if argument.startswith("-"):
-            option = argument if argument in _PAIRS else ""
-        elif option and role in ROLES and "=" in argument:
+            option = argument if argument in (*_PAIRS, *_FILES) else ""
+        elif option in _FILES or (option and role in ROLES and "=" in argument):
             if out[-1] != option:
                 out.append(option)
         else:

@@ -18,6 +18,7 @@ from .diagnose import diagnose
 from .identify import identify
 from .next_test import next_test
 from .simulate import simulate
+from .study import study
 
 
 @click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
@@ -34,7 +35,7 @@ def cli() -> None:
     """  # noqa: D301  # \b keeps the lines
 
 
-for command in (identify, diagnose, next_test, simulate, demo):
+for command in (identify, diagnose, next_test, simulate, demo, study):
     cli.add_command(command)
 
 
