@@ -86,13 +86,13 @@ def _effects(effects: "Sequence[MissingEffect]") -> Iterable[str]:
 
 
 def _figures(histories: "Sequence[History]") -> Iterable[str]:
-    from .plot import plot_diagnosis
+    from .plots import plot_before_after
 
     worst = sorted(histories, key=lambda h: -_rms_of(h.measured - h.base))[:_FIGURES]
     for number, history in enumerate(worst):
         name = escape(history.recording)
         caption = f"{name}: force against displacement, and what each model leaves over time."
-        drawing = _svg(plot_diagnosis(history), f"figure{number}")
+        drawing = _svg(plot_before_after(history), f"figure{number}")
         yield f"<figure>{drawing}<figcaption>{caption}</figcaption></figure>"
 
 

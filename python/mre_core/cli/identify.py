@@ -127,8 +127,8 @@ def _write(stage: Any, found: Any, more: Any, loaded: list[Any], *, figures: boo
     stage.write_json("identification.json", describe(found, *more))
     if not figures:
         return
-    from ..plot import plot_fit
+    from ..plots import plot_fit, save
 
     for recording, name in zip(loaded, unique_names([r.name for r in loaded]), strict=True):
         if any(fit.recording == recording.name for fit in found.fits):
-            plot_fit(found.model, recording).savefig(stage.path(f"fit_{name}.png"), dpi=110)
+            save(plot_fit(found.model, recording), stage.path(f"fit_{name}.png"))

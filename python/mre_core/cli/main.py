@@ -16,6 +16,7 @@ from .arguments import spread
 from .demo import demo
 from .diagnose import diagnose
 from .identify import identify
+from .loops import loops
 from .simulate import simulate
 
 
@@ -29,11 +30,12 @@ def cli() -> None:
       mre-core demo
       mre-core identify test.csv --model sinh --out result
       mre-core diagnose test.csv --base sinh --out result
+      mre-core loops test.csv --model result/model.json --out loops
       mre-core simulate result/model.json earthquake.csv --out predicted.csv
     """  # noqa: D301  # \b keeps the lines
 
 
-for command in (identify, diagnose, simulate, demo):
+for command in (identify, diagnose, loops, simulate, demo):
     cli.add_command(command)
 
 
