@@ -120,11 +120,14 @@ def _more(
 
 
 def _write(stage: Any, found: Any, more: Any, loaded: list[Any], *, figures: bool) -> None:
-    """``model.json``, ``identification.json`` and one figure a recording."""
+    """Write ``model.json``, ``identification.json``, ``report.html`` and one figure a recording."""
     from ..describe import describe
+    from ..report import report_identification
 
     stage.write_json("model.json", found.model.to_dict() | {"interrupted": found.interrupted})
     stage.write_json("identification.json", describe(found, *more))
+    page = report_identification(found, loaded, *more)
+    stage.path("report.html").write_text(page, encoding="utf-8")
     if not figures:
         return
     from ..plots import plot_fit, save
