@@ -284,6 +284,22 @@ def test_what_is_packed_is_what_was_given() -> None:
     np.testing.assert_allclose((final - base)[~np.isnan(base)], 0.5, atol=1e-4)
 
 
+def test_large_forces_are_drawn_in_kilonewtons() -> None:
+    small, r = series(1000), series(1000)
+    large = replace(
+        r, measured=1000 * r.measured, models={name: 1000 * force for name, force in r.models.items()}
+    )
+    assert pack([small])["unit"] == "N"
+    packed = pack([large])
+    assert packed["unit"] == "kN"
+    assert packed["recordings"][0]["rms"] == pytest.approx(pack([small])["recordings"][0]["rms"])
+    for key in ("measured", "forces", "map"):
+        one, other = (json.dumps(p["recordings"][0][key]) for p in (packed, pack([small])))
+        assert len(one) == len(other)
+    force = np.frombuffer(base64.b64decode(packed["recordings"][0]["measured"]), "<f4")
+    np.testing.assert_allclose(force, r.measured, rtol=1e-6)
+
+
 @pytest.mark.parametrize("lengths", [[100_000], [1000] * 100, [500, 200_000]])
 def test_pages_stay_small(lengths: list[int]) -> None:
     packed = pack([series(n) for n in lengths])
@@ -343,12 +359,14 @@ def test_same_bytes() -> None:
 
 
 def test_numbers_in_words() -> None:
-    assert [figures(v) for v in (None, True, 60000, 1.23456, 1e-12, "a")] == [
+    assert [figures(v) for v in (None, True, 60000, 1.23456, 1e-12, 123456.0, 1e9, "a")] == [
         "not known",
         "yes",
         "60000",
         "1.235",
         "1e-12",
+        "123500",
+        "1e+09",
         "a",
     ]
 

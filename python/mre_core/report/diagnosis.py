@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 from ..output import finite
 from .chart import curves_in
 from .page import render
-from .series import Series, pack
+from .series import Series, pack, rms
 
 if TYPE_CHECKING:
     from ..diagnosis import Diagnosis
@@ -54,6 +54,7 @@ def report_diagnosis(found: "Diagnosis") -> str:
         strongest=max((float(place.get("strength", 0)) for place in found.where), default=1.0) or 1.0,
         further=further,
         charts={key: curves_in(value) for key, value in further.items()},
+        fits=[(s.name, *(rms(s.measured - force) for force in s.models.values())) for s in series],
         data=pack(series) | {"where": content.get("where", [])},
         result=content,
         result_name="diagnosis.json",

@@ -67,7 +67,10 @@ def figures(value: Any, digits: int = 4) -> str:
         return "not known"
     if isinstance(value, bool):
         return "yes" if value else "no"
-    return f"{value:.{digits}g}" if isinstance(value, float) else str(value)
+    if not isinstance(value, float):
+        return str(value)
+    short = f"{value:.{digits}g}"
+    return f"{float(short):.0f}" if 1e4 <= abs(value) < 1e7 and "e" in short else short
 
 
 def _bundle(names: tuple[str, ...]) -> str:

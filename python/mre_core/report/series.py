@@ -15,6 +15,8 @@ MOST_POINTS: Final = 60_000
 """Samples that a page draws, over all recordings."""
 _LEAST_POINTS: Final = 300
 """Of a single recording, however many there are."""
+_LARGE_FORCE: Final = 10_000.0
+"""N, from which on forces are drawn in kN."""
 _MOST_CELLS: Final = 28
 """Cells along each axis of the map of errors."""
 
@@ -38,9 +40,12 @@ def pack(recordings: list[Series]) -> dict[str, Any]:
     spare = sum(max(0, share - len(r.time)) for r in recordings)
     long = sum(len(r.time) > share for r in recordings)
     share += spare // long if long else 0
+    largest = max((float(np.abs(r.measured).max()) for r in recordings), default=0.0)
+    unit, newtons = ("kN", 1000.0) if largest >= _LARGE_FORCE else ("N", 1.0)
     return {
+        "unit": unit,
         "models": list(recordings[0].models) if recordings else [],
-        "recordings": [_pack(recording, share) for recording in recordings],
+        "recordings": [_pack(recording, share, newtons) for recording in recordings],
     }
 
 
@@ -79,24 +84,25 @@ def rms(values: Values) -> float:
     return float(np.sqrt(np.mean(values**2)))
 
 
-def _pack(series: Series, most: int) -> dict[str, Any]:
+def _pack(series: Series, most: int, newtons: float) -> dict[str, Any]:
+    """Pack one recording; `newtons` are in one unit of force."""
     at = kept(series, most)
     forces = series.models.values()
     return {
         "name": series.name,
         "samples": len(series.time),
         "shown": len(at),
-        "rms": [rms(series.measured - force) for force in forces],
+        "rms": [rms(series.measured - force) / newtons for force in forces],
         "time": _text(series.time[at], "<f8"),
         "displacement": _text(series.displacement[at]),
         "velocity": _text(series.velocity[at]),
-        "measured": _text(series.measured[at]),
-        "forces": [_text(force[at]) for force in forces],
-        "map": _map(series),
+        "measured": _text(series.measured[at] / newtons),
+        "forces": [_text(force[at] / newtons) for force in forces],
+        "map": _map(series, newtons),
     }
 
 
-def _map(series: Series) -> dict[str, Any]:
+def _map(series: Series, newtons: float) -> dict[str, Any]:
     """Mean error over displacement and velocity, of all samples; empty cells are not numbers."""
     x, v = series.displacement, series.velocity
     cells = int(np.clip(np.sqrt(len(x)) / 3, 6, _MOST_CELLS))
@@ -104,7 +110,7 @@ def _map(series: Series) -> dict[str, Any]:
     means = []
     for force in series.models.values():
         total, _, _ = np.histogram2d(x, v, bins=(x_edges, v_edges), weights=series.measured - force)
-        means.append(_text(np.where(count > 0, total / np.maximum(count, 1), np.nan).ravel()))
+        means.append(_text(np.where(count > 0, total / np.maximum(count, 1) / newtons, np.nan).ravel()))
     ends = {"x": [x_edges[0], x_edges[-1]], "v": [v_edges[0], v_edges[-1]]}
     return {"cells": cells, "means": means} | {key: [float(e) for e in pair] for key, pair in ends.items()}
 

@@ -37,10 +37,20 @@ const buttons = {
 };
 for (const [id, action] of Object.entries(buttons)) by(id).addEventListener("click", action);
 
+// The recording that has the most samples in a region: the one shown, where it has any at all.
+function mostWithin(region) {
+  const counts = carried.recordings.map((_, place) => {
+    const r = recordingAt(place);
+    return r.t.reduce((count, _, i) => count + within(r, i, region), 0);
+  });
+  return counts[state.recording] > 0 ? state.recording : counts.indexOf(Math.max(...counts));
+}
+
 // A place of the mismatch, shown in all figures.
 function showPlace(place) {
+  const region = Array.isArray(place.x_mm) && Array.isArray(place.v_mm_s) ? { x: place.x_mm, v: place.v_mm_s } : null;
   const named = carried.recordings.findIndex((r) => r.name === place.recording);
-  show(named < 0 ? state.recording : named);
+  show(named >= 0 ? named : region ? mostWithin(region) : state.recording);
   if (Number.isFinite(place.from) && Number.isFinite(place.to)) {
     const margin = Math.max(place.to - place.from, 0.01 * (state.to - state.from));
     state.band = [place.from, place.to];
@@ -49,7 +59,7 @@ function showPlace(place) {
     const middle = (state.from + state.to) / 2;
     zoom(middle - 2 / place.drive_hz, middle + 2 / place.drive_hz);
   }
-  if (Array.isArray(place.x_mm) && Array.isArray(place.v_mm_s)) state.region = { x: place.x_mm, v: place.v_mm_s };
+  state.region = region;
   by("viewer").scrollIntoView({ block: "start" });
   panels.force.canvas.focus({ preventScroll: true });
 }
@@ -58,8 +68,8 @@ for (const button of document.querySelectorAll("[data-place]")) {
 }
 
 function samples() {
-  const r = current(), head = ["time_s", "displacement_mm", "velocity_mm_s", "force_N"];
-  const rows = [[...head, ...models.map((name) => `${name.replaceAll(" ", "_")}_N`)].join(",")];
+  const r = current(), head = ["time_s", "displacement_mm", "velocity_mm_s", `force_${unit}`];
+  const rows = [[...head, ...models.map((name) => `${name.replaceAll(" ", "_")}_${unit}`)].join(",")];
   r.t.forEach((t, i) => rows.push([t, r.x[i], r.v[i], r.measured[i], ...r.forces.map((f) => f[i])].join(",")));
   return `${rows.join("\n")}\n`;
 }

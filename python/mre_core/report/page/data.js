@@ -1,6 +1,6 @@
 // What the page carries: recordings, unpacked when they are first shown.
 const carried = JSON.parse(document.getElementById("series").textContent);
-const models = carried.models;
+const models = carried.models, unit = carried.unit;
 const unpacked = new Map();
 
 function numbers(text, Kind) {

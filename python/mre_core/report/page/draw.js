@@ -13,8 +13,8 @@ function shade(share) {
 function drawTimes(panels, state, r, [from, to]) {
   const errors = r.errors.filter((_, i) => state.models[i]);
   const span = [state.from, state.to];
-  panels.force.begin(span, extent(forces(state, r), from, to), "time / s", "force / N");
-  panels.error.begin(span, extent(errors, from, to), "time / s", "error / N");
+  panels.force.begin(span, extent(forces(state, r), from, to), "time / s", `force / ${unit}`);
+  panels.error.begin(span, extent(errors, from, to), "time / s", `error / ${unit}`);
   for (const panel of [panels.force, panels.error]) {
     if (state.band) panel.box(state.band, panel.ySpan, "mark", 0.75);
     if (state.drag && state.drag.panel === panel) panel.box(state.drag.x, panel.ySpan, "accent", 0.18);
@@ -53,7 +53,7 @@ function within(r, i, region) {
 }
 
 function drawLoop(panel, state, r, [from, to]) {
-  panel.begin(extent([r.x], from, to), extent(forces(state, r), from, to), "displacement / mm", "force / N");
+  panel.begin(extent([r.x], from, to), extent(forces(state, r), from, to), "displacement / mm", `force / ${unit}`);
   drawForces(panel, state, r, r.x, from, to);
   if (state.region) panel.inside((pen) => {
     pen.fillStyle = colour("accent");
@@ -103,7 +103,7 @@ function drawKey(panel, largest) {
     pen.fillText(text, left + 13, panel.top + at * height);
   }
   pen.textBaseline = "top";
-  pen.fillText("N", left, panel.bottom + 5);
+  pen.fillText(unit, left, panel.bottom + 5);
 }
 
 function drawCursor(panels, state, r) {

@@ -31,10 +31,10 @@ function refresh() {
 function described(r) {
   const i = state.cursor;
   if (i === null) {
-    return `${r.name}: rms error ${models.map((name, m) => `${name} ${short(r.rms[m])} N`).join(", ")}`;
+    return `${r.name}: rms error ${models.map((name, m) => `${name} ${short(r.rms[m])} ${unit}`).join(", ")}`;
   }
-  const parts = [`${short(r.t[i])} s`, `x ${short(r.x[i])} mm`, `v ${short(r.v[i])} mm/s`, `measured ${short(r.measured[i])} N`];
-  models.forEach((name, m) => parts.push(`${name} ${short(r.forces[m][i])} N (error ${short(r.errors[m][i])})`));
+  const parts = [`${short(r.t[i])} s`, `x ${short(r.x[i])} mm`, `v ${short(r.v[i])} mm/s`, `measured ${short(r.measured[i])} ${unit}`];
+  models.forEach((name, m) => parts.push(`${name} ${short(r.forces[m][i])} ${unit} (error ${short(r.errors[m][i])})`));
   return parts.join(" · ");
 }
 
