@@ -144,6 +144,13 @@ def test_ramps_and_levels() -> None:
     assert [round(c.start) for c in cycles] == [3, 4, 5, 6, 7, 10, 11, 12, 13, 14, 15]
 
 
+def test_a_part_of_a_period_is_enough_to_compare_with() -> None:
+    time = np.arange(0, 12, 1 / RATE)
+    x = np.interp(time, [0, 1], [0, 4]) * np.sin(TURN * 0.2 * time)
+    # The first of two whole cycles swells; two fifths of a third one repeat the second.
+    assert [round(c.start) for c in find_cycles(time, x)] == [5]
+
+
 def test_one_cycle_and_none() -> None:
     assert len(only(sine(lambda x, v: x, cycles=1)).measured) == 1
     assert only(sine(lambda x, v: x, cycles=1)).deviation("energy") is None

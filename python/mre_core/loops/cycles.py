@@ -10,9 +10,9 @@ Series = NDArray[np.float64]
 _BAND = 0.05
 """Half-width about the middle, as a share of the largest half stroke, within which noise is no passage."""
 _REPEATS = 0.05
-"""Largest rms difference, as a share of the half stroke, of two cycles that repeat each other."""
-_PERIODS = 0.1
-"""Largest relative difference of their periods."""
+"""Largest rms difference, as a share of the half stroke, of two periods that repeat each other."""
+_ENOUGH = 0.25
+"""Share of a neighbouring period that has to be there for a comparison."""
 _PHASES = 64
 
 
@@ -27,7 +27,7 @@ class Cycle:
 
 
 def find_cycles(time: Series, displacement: Series) -> list[Cycle]:
-    """Find the closed cycles: those whose motion a neighbouring cycle repeats, or the only one.
+    """Find the closed cycles: those whose motion a neighbouring period repeats, or the only one.
 
     Ramps, incomplete cycles and motion that does not repeat are left out.
 
@@ -45,20 +45,21 @@ def find_cycles(time: Series, displacement: Series) -> list[Cycle]:
     passages = _passages(time, displacement - middle)
     ups = [i for i, (_, upward) in enumerate(passages[:-2]) if upward]
     cycles = [Cycle(passages[i][0], passages[i + 1][0], passages[i + 2][0], middle) for i in ups]
-    if len(cycles) < 2:
-        return cycles
-    phase = np.arange(_PHASES) / _PHASES
-    shapes = [np.interp(c.start + phase * (c.stop - c.start), time, displacement) for c in cycles]
-    repeated = [_repeat(cycles[i], cycles[i + 1], shapes[i], shapes[i + 1]) for i in range(len(cycles) - 1)]
-    kept = zip(cycles, [False, *repeated], [*repeated, False], strict=True)
-    return [cycle for cycle, as_before, as_after in kept if as_before or as_after]
+    return [cycle for cycle in cycles if _is_closed(cycle, time, displacement)]
 
 
-def _repeat(first: Cycle, second: Cycle, one: Series, other: Series) -> bool:
-    periods = first.stop - first.start, second.stop - second.start
-    difference = float(np.sqrt(np.mean((one - other) ** 2)))
-    alike = difference < _REPEATS * float(np.ptp(one)) / 2
-    return alike and abs(periods[0] - periods[1]) < _PERIODS * max(periods)
+def _is_closed(cycle: Cycle, time: Series, x: Series) -> bool:
+    """Tell whether the motion a period before or after a cycle is the same, or there is none."""
+    period = cycle.stop - cycle.start
+    t = cycle.start + np.arange(_PHASES) / _PHASES * period
+    own = np.interp(t, time, x)
+    alike = []
+    for other in (t - period, t + period):
+        there = (other >= time[0]) & (other <= time[-1])
+        if np.count_nonzero(there) >= _ENOUGH * _PHASES:
+            difference = np.interp(other[there], time, x) - own[there]
+            alike.append(float(np.sqrt(np.mean(difference**2))) < _REPEATS * float(np.ptp(own)) / 2)
+    return any(alike) or not alike
 
 
 def _passages(time: Series, x: Series) -> list[tuple[float, bool]]:
