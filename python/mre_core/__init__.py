@@ -14,6 +14,7 @@ from .errors import ExtrapolationWarning, InputError, UnitAssumedWarning
 from .fits import exact, hybrid
 from .identify import Identification, identify
 from .load import from_dataframe, load
+from .loops import LoopTable, loops
 from .measure import Fit
 from .model import Level, Model, simulate
 from .results import Parameter, StopReason, SwarmResult
@@ -32,6 +33,7 @@ __all__ = [
     "Identification",
     "InputError",
     "Level",
+    "LoopTable",
     "Model",
     "MreError",
     "Parameter",
@@ -53,6 +55,7 @@ __all__ = [
     "identify",
     "inertia_weight",
     "load",
+    "loops",
     "mafsa",
     "models",
     "profile",

@@ -16,6 +16,7 @@ from .arguments import spread
 from .demo import demo
 from .diagnose import diagnose
 from .identify import identify
+from .loops import loops
 from .next_test import next_test
 from .simulate import simulate
 from .study import study
@@ -31,11 +32,12 @@ def cli() -> None:
       mre-core demo
       mre-core identify test.csv --model sinh --out result
       mre-core diagnose test.csv --base sinh --out result
+      mre-core loops test.csv --model result/model.json --out loops
       mre-core simulate result/model.json earthquake.csv --out predicted.csv
     """  # noqa: D301  # \b keeps the lines
 
 
-for command in (identify, diagnose, next_test, simulate, demo, study):
+for command in (identify, diagnose, loops, next_test, simulate, demo, study):
     cli.add_command(command)
 
 
