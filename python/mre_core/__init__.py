@@ -5,6 +5,7 @@ Units everywhere: millimetre, newton, second, ampere, degree Celsius.
 
 from ._core import MreError, Problem, Recording, __version__, inertia_weight, models
 from .asktell import AskTell
+from .batch import batch, plot_parameters, read_results
 from .certificate import Certificate, certificate
 from .chunks import read_chunks
 from .diagnose import diagnose
@@ -44,6 +45,7 @@ __all__ = [
     "UnitAssumedWarning",
     "__version__",
     "afsa",
+    "batch",
     "bootstrap",
     "certificate",
     "diagnose",
@@ -55,9 +57,11 @@ __all__ = [
     "load",
     "mafsa",
     "models",
+    "plot_parameters",
     "profile",
     "pso",
     "read_chunks",
+    "read_results",
     "simulate",
     "uncertainty",
 ]

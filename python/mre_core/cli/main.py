@@ -13,6 +13,7 @@ import click
 from .. import __version__
 from ..errors import MreError, one_line
 from .arguments import spread
+from .batch import batch
 from .demo import demo
 from .diagnose import diagnose
 from .identify import identify
@@ -30,10 +31,11 @@ def cli() -> None:
       mre-core identify test.csv --model sinh --out result
       mre-core diagnose test.csv --base sinh --out result
       mre-core simulate result/model.json earthquake.csv --out predicted.csv
+      mre-core batch recordings --model sinh --out results
     """  # noqa: D301  # \b keeps the lines
 
 
-for command in (identify, diagnose, simulate, demo):
+for command in (identify, diagnose, batch, simulate, demo):
     cli.add_command(command)
 
 
