@@ -5,7 +5,7 @@ Units everywhere: millimetre, newton, second, ampere, degree Celsius.
 
 from ._core import MreError, Problem, Recording, __version__, inertia_weight, models
 from .asktell import AskTell
-from .batch import batch, plot_parameters, read_results
+from .batches import batch, plot_parameters, read_results
 from .certificate import Certificate, certificate
 from .chunks import read_chunks
 from .diagnose import diagnose

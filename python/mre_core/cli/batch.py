@@ -32,7 +32,9 @@ _SHOWN = 20
 @click.option("--fish", type=WHOLE, help="Fish or particles of a swarm.")
 @click.option("--iterations", type=WHOLE, help="Iterations of a swarm.")
 @click.option("--false-alarm", type=float, help="Of a diagnosis; 0.01 by default.")
-@click.option("--fixed", is_flag=True, help="Of a diagnosis: keep the parameters of a model.json as they are.")
+@click.option(
+    "--fixed", is_flag=True, help="Of a diagnosis: keep the parameters of a model.json as they are."
+)
 @click.option("--cut", metavar="START:STOP", help="Keep this part of every recording, in s.")
 @click.option("--exclude", metavar="PARTS", help="start_transient, stop_transient or both, with a comma.")
 @click.option("--budget", type=float, metavar="S", help="Seconds that one item may take.")
@@ -72,7 +74,7 @@ def batch(
       mre-core batch campaigns --base sinh --budget 600 --out result
       mre-core batch recordings --model bouc_wen --cluster tcp://10.0.0.1:8786 --out result
     """  # noqa: D301  # \b keeps the lines
-    from ..batch import batch as run
+    from ..batches import batch as run
     from ..output import staged
     from .show import counter
 
@@ -102,7 +104,7 @@ def batch(
 
 def _draw(stage: "Stage", results: "pd.DataFrame") -> None:
     """One figure for every axis that the results have and along which they differ."""
-    from ..batch.plots import AGAINST, long_table, plot_parameters
+    from ..batches.plots import AGAINST, long_table, plot_parameters
 
     if not (results["status"] == "done").any():
         return
@@ -121,7 +123,9 @@ def _print(results: "pd.DataFrame", out: Path) -> None:
 
     failed = results[results["status"] == "failed"]
     to = console()
-    to.print(f"{len(results) - len(failed)} done, {len(failed)} failed: {escape(str(out / 'results.parquet'))}")
+    to.print(
+        f"{len(results) - len(failed)} done, {len(failed)} failed: {escape(str(out / 'results.parquet'))}"
+    )
     if "verdict" in results:
         for verdict, count in results["verdict"].value_counts().items():
             to.print(f"  {verdict}: {count}")

@@ -69,7 +69,9 @@ def read_results(path: str | os.PathLike[str]) -> "pd.DataFrame":
         found = pd.read_parquet(file)
     except OSError as error:
         problem = error.strerror or "is no Parquet file"
-        raise InputError(f"cannot be read: {problem}", file=str(file), wanted="the results of a batch") from None
+        raise InputError(
+            f"cannot be read: {problem}", file=str(file), wanted="the results of a batch"
+        ) from None
     except ValueError:
         raise InputError("is no Parquet file", file=str(file), wanted="the results of a batch") from None
     if missing := [name for name in ("item", "seed", "status", "settings") if name not in found]:

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass
+from pathlib import Path
 
 from ..errors import InputError
 from .child import Child
@@ -34,7 +35,7 @@ def work_on(tasks: Sequence[Task], budget: float | None) -> list[Outcome]:
 
 @contextmanager
 def local_engine(workers: int | None, threads: int) -> Iterator[Engine]:
-    """Processes of this machine, each one with `threads` threads; by default as many as the cores allow."""
+    """Open processes of this machine, of `threads` threads each; by default as many as the cores allow."""
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     slots = max(1, cores // threads) if workers is None else workers
     children: list[Child] = []
@@ -54,9 +55,28 @@ def local_engine(workers: int | None, threads: int) -> Iterator[Engine]:
 
 
 def given_engine(executor: Executor) -> Engine:
-    """Somebody's executor, whose workers see the files."""
+    """Take somebody's executor, whose workers see the files."""
     if not isinstance(executor, Executor):
         kind = type(executor).__name__
         raise InputError(f"executor is a {kind}", wanted="a concurrent.futures.Executor")
     slots = getattr(executor, "_max_workers", None)
     return Engine(executor, slots if isinstance(slots, int) else os.cpu_count() or 1)
+
+
+@contextmanager
+def chosen_engine(
+    workers: int | None, threads: int, cluster: str | None, executor: Executor | None, folder: Path
+) -> Iterator[Engine]:
+    """Open the engine that was asked for; by default processes of this machine."""
+    if executor is not None and cluster is not None:
+        raise InputError("both an executor and a cluster are given", wanted="one of them")
+    if executor is not None:
+        yield given_engine(executor)
+    elif cluster is not None:
+        from .cluster import cluster_engine
+
+        with cluster_engine(cluster, folder, threads) as engine:
+            yield engine
+    else:
+        with local_engine(workers, threads) as engine:
+            yield engine

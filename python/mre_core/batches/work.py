@@ -85,7 +85,9 @@ def _loaded(files: list[Path], task: Task) -> list[Recording]:
     """Load the files, and see that they are what the batch began with."""
     recordings = [task.settings.reading.load(file) for file in files]
     if digest_of_all([digest_of(file) for file in files]) != task.digest:
-        raise InputError("changed since the batch began", file=task.item, wanted="files that stay as they are")
+        raise InputError(
+            "changed since the batch began", file=task.item, wanted="files that stay as they are"
+        )
     return recordings
 
 

@@ -89,7 +89,7 @@ def _at(current: float | None) -> str:
 
 
 def _conditions(recordings: Sequence[Recording]) -> Row:
-    """Number of recordings, what they share, and how far they move."""
+    """Count the recordings, and tell what they share and how far they move."""
     currents = {r.current_level for r in recordings}
     temperatures = [float(np.mean(r.temperature)) for r in recordings if r.temperature is not None]
     motion = largest_motion(recordings)

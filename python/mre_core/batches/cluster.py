@@ -5,15 +5,13 @@ import re
 from collections.abc import Iterator
 from concurrent.futures import Executor
 from contextlib import ExitStack, contextmanager
+from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from .._core import __version__
 from ..errors import InputError, one_line
 from .engine import Engine
-
-if TYPE_CHECKING:
-    from distributed import Client
 
 _PATIENCE = 10.0
 """Seconds to wait for a scheduler and its workers."""
@@ -43,8 +41,8 @@ def cluster_engine(address: str, folder: Path, threads: int) -> Iterator[Engine]
         version.
     """
     try:
-        import dask
-        from distributed import Client, LocalCluster
+        dask: Any = import_module("dask")
+        distributed: Any = import_module("distributed")
     except ImportError:
         raise InputError("Dask is not installed", wanted="pip install 'mre-core[cluster]'") from None
     logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what matters is said in one line
@@ -58,10 +56,10 @@ def cluster_engine(address: str, folder: Path, threads: int) -> Iterator[Engine]
         if local is not None:
             count = int(local[1])
             target = stack.enter_context(
-                LocalCluster(n_workers=count, threads_per_worker=1, dashboard_address=None)
+                distributed.LocalCluster(n_workers=count, threads_per_worker=1, dashboard_address=None)
             )
         try:
-            client = stack.enter_context(Client(target, timeout=_PATIENCE, set_as_default=False))
+            client = stack.enter_context(distributed.Client(target, timeout=_PATIENCE, set_as_default=False))
         except (OSError, ValueError, TimeoutError) as error:
             problem = f"the scheduler at {address} cannot be reached: {one_line(str(error)) or 'no answer'}"
             raise InputError(problem, wanted="the address of a running scheduler") from None
@@ -72,7 +70,7 @@ def cluster_engine(address: str, folder: Path, threads: int) -> Iterator[Engine]
         yield Engine(executor, slots, sees)
 
 
-def _check_workers(client: "Client", address: str, threads: int) -> int:
+def _check_workers(client: Any, address: str, threads: int) -> int:
     """See that the workers can do the work, and count how many tasks they take at a time."""
     try:
         client.wait_for_workers(1, timeout=_PATIENCE)

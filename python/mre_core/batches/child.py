@@ -78,7 +78,8 @@ class Child:
                 raise RuntimeError("the batch has ended")
             if self._process is None:
                 root = str(Path(__file__).parents[2])
-                code = f"import sys; sys.path.insert(0, {root!r})\nfrom mre_core.batch.serve import serve; serve()"
+                code = f"import sys; sys.path.insert(0, {root!r})\n"
+                code += "from mre_core.batches.serve import serve; serve()"
                 self._process = subprocess.Popen(
                     [sys.executable, "-P", "-c", code],
                     stdin=subprocess.PIPE,

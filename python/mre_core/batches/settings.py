@@ -18,7 +18,6 @@ from ..load import load
 from ..minimise import RunOptions
 from ..model import SIMULATED, Model
 
-
 _VARYING = {"callback", "on_interrupt", "threads", "time_limit", "x0", "seed", "run", "problem_or_function"}
 """Keywords of an optimiser that belong to one run, or make results depend on the machine's speed."""
 
@@ -36,7 +35,8 @@ class Reading:
 
     def load(self, path: Path) -> Recording:
         """Read one file."""
-        found = load(path, map=self.map, name_pattern=self.name_pattern, **self.conditions)
+        conditions: dict[str, Any] = dict(self.conditions)
+        found = load(path, map=self.map, name_pattern=self.name_pattern, **conditions)
         if self.cut is not None:
             found = found.cut(*self.cut)
         return found.exclude(*self.exclude) if self.exclude else found
@@ -95,7 +95,7 @@ class Settings:
         return cls(job, name, start, reading, given_options, bootstrap)
 
     def given_model(self) -> str | Model:
-        """The model or base as `identify` and `diagnose` take it."""
+        """Give the model or base as `identify` and `diagnose` take it."""
         return self.model if self.start is None else Model.from_dict(self.start)
 
     def to_dict(self) -> dict[str, Any]:

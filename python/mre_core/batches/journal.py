@@ -138,3 +138,21 @@ def _differences(before: Any, now: Any, name: str = "") -> list[str]:
         for key in sorted({*before, *now})
         for text in _differences(before.get(key), now.get(key), f"{name}.{key}".removeprefix("."))
     ]
+
+
+@contextmanager
+def journal_in(out: Path) -> Iterator[Journal]:
+    """Open the journal of a folder, which is made if need be, for this batch alone."""
+    from filelock import FileLock, Timeout
+
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+        lock = FileLock(out / LOCK, timeout=0)
+        lock.acquire()
+    except Timeout:
+        raise InputError("another batch is at work there", file=str(out), wanted="another folder") from None
+    except OSError as error:
+        problem = f"cannot be written: {error.strerror or error}"
+        raise InputError(problem, file=str(out), wanted="a folder to write to") from None
+    with lock, Journal(out / JOURNAL) as journal:
+        yield journal
