@@ -1,5 +1,6 @@
 """A Dask cluster: one that runs already, or one of this machine."""
 
+import gc
 import logging
 import re
 from collections.abc import Iterator
@@ -58,16 +59,26 @@ def cluster_engine(address: str, folder: Path, threads: int) -> Iterator[Engine]
             target = stack.enter_context(
                 distributed.LocalCluster(n_workers=count, threads_per_worker=1, dashboard_address=None)
             )
-        try:
-            client = stack.enter_context(distributed.Client(target, timeout=_PATIENCE, set_as_default=False))
-        except (OSError, ValueError, TimeoutError) as error:
-            problem = f"the scheduler at {address} cannot be reached: {one_line(str(error)) or 'no answer'}"
-            raise InputError(problem, wanted="the address of a running scheduler") from None
+        client = stack.enter_context(_connect(distributed.Client, target, address))
         slots = _check_workers(client, address, threads)
         sees = all(client.run(_sees, str(folder.resolve())).values())
         # Same function, same arguments, other time: a task is not what Dask calls pure.
         executor: Executor = client.get_executor(pure=False, retries=_RETRIES)
         yield Engine(executor, slots, sees)
+
+
+def _connect(client: Any, target: Any, address: str) -> Any:
+    try:
+        return client(target, timeout=_PATIENCE, set_as_default=False)
+    except (OSError, ValueError, TimeoutError) as error:
+        problem = one_line(str(error)) or "no answer"
+    # The client that failed is part of a cycle. Collected later, on another client's thread while that
+    # starts, it would wait for that client's lock for ever.
+    gc.collect()
+    raise InputError(
+        f"the scheduler at {address} cannot be reached: {problem}",
+        wanted="the address of a running scheduler",
+    )
 
 
 def _check_workers(client: Any, address: str, threads: int) -> int:
