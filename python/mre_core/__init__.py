@@ -8,6 +8,8 @@ from .asktell import AskTell
 from .batches import batch, plot_parameters, read_results
 from .certificate import Certificate, certificate
 from .chunks import read_chunks
+from .current_laws.fit import LawFit, fit_laws
+from .current_laws.law import Dependence, Law
 from .diagnose import diagnose
 from .diagnosis import Diagnosis
 from .effects import Effect
@@ -25,6 +27,7 @@ __all__ = [
     "AskTell",
     "Bootstrap",
     "Certificate",
+    "Dependence",
     "Diagnosis",
     "Effect",
     "Estimate",
@@ -32,6 +35,8 @@ __all__ = [
     "Fit",
     "Identification",
     "InputError",
+    "Law",
+    "LawFit",
     "Level",
     "Model",
     "MreError",
@@ -50,6 +55,7 @@ __all__ = [
     "certificate",
     "diagnose",
     "exact",
+    "fit_laws",
     "from_dataframe",
     "hybrid",
     "identify",

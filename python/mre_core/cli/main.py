@@ -17,6 +17,7 @@ from .batch import batch
 from .demo import demo
 from .diagnose import diagnose
 from .identify import identify
+from .laws import laws
 from .simulate import simulate
 
 
@@ -31,11 +32,12 @@ def cli() -> None:
       mre-core identify test.csv --model sinh --out result
       mre-core diagnose test.csv --base sinh --out result
       mre-core simulate result/model.json earthquake.csv --out predicted.csv
+      mre-core laws *.csv --model sinh --out result
       mre-core batch recordings --model sinh --out results
     """  # noqa: D301  # \b keeps the lines
 
 
-for command in (identify, diagnose, batch, simulate, demo):
+for command in (identify, diagnose, laws, batch, simulate, demo):
     cli.add_command(command)
 
 

@@ -1,0 +1,184 @@
+"""A campaign as a joint fit sees it: levels of the current, and recordings whose current changes."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .._core import Recording
+from ..errors import InputError
+from ..grouping import same_level
+from .factors import DirectFactor, SinhFactor, sample_columns, triangle
+from .law import Dependence, Law
+from .shapes import ShapeBox, shape_boxes
+from .structure import Structure
+
+Array = NDArray[np.float64]
+
+
+class Part(Protocol):
+    """Samples that enter a joint fit."""
+
+    @property
+    def currents(self) -> tuple[float, ...]:
+        """Lowest and highest current in A."""
+        ...
+
+    def rows(self, laws: Sequence[Law], shapes: Sequence[Dependence]) -> tuple[Array, Array]:
+        """Columns of all values of the coefficients' laws, and the force: (k, p) and (k,)."""
+        ...
+
+
+@dataclass
+class Steady:
+    """All recordings at one current."""
+
+    members: list[float]
+    """Their currents, A."""
+    factor: SinhFactor | DirectFactor
+
+    @property
+    def currents(self) -> tuple[float, ...]:
+        """The level."""
+        return (float(np.mean(self.members)),)
+
+    def rows(self, laws: Sequence[Law], shapes: Sequence[Dependence]) -> tuple[Array, Array]:
+        """Columns at the level, each times the weights of its law."""
+        (current,) = self.currents
+        columns, right = self.factor.columns(tuple(float(shape.at(current)[0]) for shape in shapes))
+        weighted = [columns[:, [j]] * law.weights(current) for j, law in enumerate(laws)]
+        return np.hstack(weighted), right
+
+
+@dataclass
+class Changing:
+    """A recording whose current changes; kept in memory."""
+
+    structure: Structure
+    recording: Recording
+    weight: float
+
+    @property
+    def currents(self) -> tuple[float, ...]:
+        """Lowest and highest."""
+        series = np.asarray(self.recording.current)
+        return (float(series.min()), float(series.max()))
+
+    def rows(self, laws: Sequence[Law], shapes: Sequence[Dependence]) -> tuple[Array, Array]:
+        """Columns sample by sample, turned to as many rows as columns."""
+        for name, shape in zip(self.structure.shapes, shapes, strict=True):
+            if shape.law.kind != "constant":
+                problem = f"{name} follows the current, which changes within '{self.recording.name}'"
+                raise InputError(problem, wanted=f"{name} constant")
+        values = tuple(shape.values[0] for shape in shapes)
+        samples = np.sqrt(self.weight) * sample_columns(self.structure, self.recording, values)
+        current = np.asarray(self.recording.current)[slice(*self.recording.scored)]
+        weighted = [samples[:, [j]] * law.weights(current) for j, law in enumerate(laws)]
+        factor = triangle(np.hstack([*weighted, samples[:, -1:]]))
+        return factor[:, :-1], factor[:, -1]
+
+
+@dataclass(frozen=True)
+class Campaign:
+    """Recordings of several currents, worked in."""
+
+    structure: Structure
+    parts: tuple[Part, ...]
+    limits: Mapping[str, tuple[float, float]]
+    """Of the coefficients."""
+    shape_boxes: Mapping[str, ShapeBox]
+    tested: Mapping[str, float]
+    """Largest displacement in mm and velocity in mm/s."""
+    samples: int
+    weight: float
+    """Sum of the weights of all samples."""
+
+    @property
+    def levels(self) -> tuple[float, ...]:
+        """Currents in A, rising: the levels, and the ends of a current that changes beyond them."""
+        steady = {p.currents[0] for p in self.parts if len(p.currents) == 1}
+        ends = [end for p in self.parts for end in p.currents]
+        return tuple(sorted({*steady, min(ends), max(ends)}))
+
+    def without(self, level: float) -> "Campaign":
+        """Leave out the recordings at one level."""
+        return replace(self, parts=tuple(p for p in self.parts if p.currents != (level,)))
+
+    def only(self, level: float) -> "Campaign":
+        """Keep the recordings at one level alone."""
+        return replace(self, parts=tuple(p for p in self.parts if p.currents == (level,)))
+
+    def rows(self, laws: Sequence[Law], shapes: Sequence[Dependence]) -> tuple[Array, Array]:
+        """Columns and force of all parts, one below the other."""
+        parts = [part.rows(laws, shapes) for part in self.parts]
+        return np.vstack([rows for rows, _ in parts]), np.concatenate([right for _, right in parts])
+
+
+def read_campaign(
+    recordings: Iterable[Recording],
+    structure: Structure,
+    bounds: Mapping[str, tuple[float, float]],
+    *,
+    by_force: bool,
+) -> Campaign:
+    """Work in recordings one after the other; `by_force` weights them by their mean squared force.
+
+    Raises
+    ------
+    InputError
+        No recording, one without force or current, a bound of no parameter, or one that is reversed.
+    """
+    steady: list[Steady] = []
+    changing: list[Changing] = []
+    farthest = fastest = strongest = weights = 0.0
+    samples = 0
+    for recording in recordings:
+        force = recording.force
+        if force is None:
+            raise InputError(f"recording '{recording.name}' has no force", wanted="a force to fit")
+        first, last = recording.scored
+        weight = 1.0 / max(float(np.mean(force[first:last] ** 2)), 1e-300) if by_force else 1.0
+        farthest = max(farthest, float(np.abs(recording.displacement).max()))
+        fastest = max(fastest, float(np.abs(recording.velocity).max()))
+        strongest = max(strongest, float(np.abs(force).max()))
+        samples += last - first
+        weights += weight * (last - first)
+        if recording.current_varies:
+            changing.append(Changing(structure, recording, weight))
+        elif recording.current_level is None:
+            wanted = "current=VALUE[A] for all: a law needs the current"
+            raise InputError(f"recording '{recording.name}' has no current", wanted=wanted)
+        else:
+            _level(steady, recording.current_level, structure).add(recording, weight)
+    if not samples:
+        raise InputError("recordings are an empty list", wanted="at least one recording")
+    for name, (low, high) in bounds.items():
+        if name not in structure.names:
+            raise InputError(f"bounds for '{name}'", wanted=f"one of {', '.join(structure.names)}")
+        if not low <= high:
+            raise InputError(f"bounds of {name} are {low} to {high}", wanted="lower at most upper")
+    limits = structure.limits(strongest)
+    held = [p.factor for p in steady if isinstance(p.factor, DirectFactor)]
+    kept = [r for factor in held for r in factor.recordings] + [c.recording for c in changing]
+    return Campaign(
+        structure,
+        (*sorted(steady, key=lambda p: p.currents), *changing),
+        {name: bounds.get(name, limits[name]) for name in structure.coefficients},
+        shape_boxes(structure, farthest, kept, bounds),
+        {"displacement_mm": farthest, "velocity_mm_s": fastest},
+        samples,
+        weights,
+    )
+
+
+def _level(steady: list[Steady], current: float, structure: Structure) -> SinhFactor | DirectFactor:
+    """Find the factor of the level that a current belongs to, by the tolerance of `group_by_current`."""
+    for level in steady:
+        if same_level(current, level.currents[0]):
+            level.members.append(current)
+            return level.factor
+    kind = DirectFactor if structure.model == "bouc_wen" else SinhFactor
+    steady.append(Steady([current], kind(structure)))
+    return steady[-1].factor
