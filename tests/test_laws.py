@@ -259,7 +259,7 @@ def test_refused() -> None:
         with pytest.raises(InputError) as caught:
             mre_core.fit_laws(*arguments)  # type: ignore[arg-type]
         assert str(caught.value).startswith(problem)
-    with pytest.raises(InputError, match="bounds of beta are 0.1 to 9, wanted above 0 and"):
+    with pytest.raises(InputError, match=r"bounds of beta are 0\.1 to 9, wanted above 0 and"):
         mre_core.fit_laws(recordings, bounds={"beta": (0.1, 9.0)})
     with pytest.raises(InputError, match="bounds for 'b', wanted one of"):
         mre_core.fit_laws(recordings, bounds={"b": (0.1, 9.0)})

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Protocol
 
 import numpy as np
@@ -48,8 +49,13 @@ class Steady:
         """Columns at the level, each times the weights of its law."""
         (current,) = self.currents
         columns, right = self.factor.columns(tuple(float(shape.at(current)[0]) for shape in shapes))
-        weighted = [columns[:, [j]] * law.weights(current) for j, law in enumerate(laws)]
-        return np.hstack(weighted), right
+        return np.hstack([columns[:, [j]] * _weights(law, current) for j, law in enumerate(laws)]), right
+
+
+@lru_cache(maxsize=4096)
+def _weights(law: Law, current: float) -> Array:
+    """Keep the weights at levels: laws without a searched saturation ask for the same again and again."""
+    return law.weights(current)
 
 
 @dataclass

@@ -15,6 +15,8 @@ from .law import Dependence, Law
 
 Array = NDArray[np.float64]
 _GRID = 25
+_FIRST_STEP = 0.05
+"""Of the last descent, as a share of the box."""
 _EVALUATIONS = 150
 """Most evaluations of the last descent, for every variable."""
 
@@ -74,23 +76,27 @@ def fit(
     if not len(variables.low):
         return solve(campaign, laws, held or {})
     best = variables.first(campaign, start)
+    width = variables.high - variables.low
 
-    def cost(point: Array) -> float:
-        return variables.joint(point).squares
+    def cost(share: Array) -> float:
+        return variables.joint(variables.low + share * width).squares
 
+    place = (best - variables.low) / width
+    side = np.where(place > 0.5, -_FIRST_STEP, _FIRST_STEP)  # where there is more room
     found: Any = minimize(
         cost,
-        best,
+        place,
         method="Nelder-Mead",
-        bounds=list(zip(variables.low, variables.high, strict=True)),
+        bounds=[(0, 1)] * len(place),
         options={
-            "initial_simplex": variables.simplex(best),
-            "xatol": 1e-7,
-            "fatol": 1e-10 * cost(best),
-            "maxfev": _EVALUATIONS * len(best),
+            "initial_simplex": np.vstack([place, place + np.diag(side)]),
+            "xatol": 1e-6,
+            "fatol": 1e-10 * cost(place),
+            "maxfev": _EVALUATIONS * len(place),
         },
     )
-    return min((variables.joint(found.x), variables.joint(best)), key=lambda joint: joint.squares)
+    last = variables.joint(variables.low + found.x * width)
+    return min((last, variables.joint(best)), key=lambda joint: joint.squares)
 
 
 class _Variables:
@@ -147,11 +153,6 @@ class _Variables:
             grid.append(point)
         costs = [self.joint(point).squares for point in grid]
         return grid[int(np.argmin(costs))]
-
-    def simplex(self, start: Array) -> Array:
-        """Corners a twentieth of the box away, on the side with more room."""
-        side = np.where(start > 0.5 * (self.low + self.high), -0.05, 0.05)
-        return np.vstack([start, start + np.diag(side * (self.high - self.low))])
 
 
 def _alone(campaign: Campaign) -> Callable[[float], Mapping[str, float]]:
