@@ -8,13 +8,14 @@ an idle machine with at least three cores: two for the workers, one for the sche
 import sys
 import tempfile
 import time
+from concurrent.futures import wait
 from pathlib import Path
 
 import mre_core
 import numpy as np
 import pandas as pd
 from distributed import Client, LocalCluster
-from mre_core.batches.drive import CHUNK_SECONDS
+from mre_core.batches.drive import chunk_size
 
 SAMPLES = 10_000
 RATE = 256.0
@@ -62,9 +63,9 @@ def overheads(size: int) -> tuple[float, float]:
         start = time.perf_counter()
         list(pool.map(abs, range(2000)))
         task = (time.perf_counter() - start) / 2000
-        contents = [bytes([i]) * size for i in range(100)]
         start = time.perf_counter()
-        list(pool.map(len, contents))
+        for i in range(50):
+            wait([pool.submit(len, bytes([i, j]) * (size // 2)) for j in range(2)])
         move = max((time.perf_counter() - start) / 100 - task, 0.0) / size
     return task, move
 
@@ -81,8 +82,8 @@ def main() -> int:
     item = work / count
     print(f"{count} recordings of {SAMPLES} samples ({size / 1e6:.2f} MB each), sinh by hybrid")
     print(f"one worker {one:.2f} s, two workers {two:.2f} s: efficiency {one / (2 * two):.2f}")
-    chunk = min(max(CHUNK_SECONDS / item, 1), 64)
-    print(f"work on an item {1e3 * item:.1f} ms; items in a task {chunk:.0f}")
+    chunk = chunk_size(item, 2, CAMPAIGN)
+    print(f"work on an item {1e3 * item:.1f} ms; items in a task {chunk} for two workers")
     share = task / (chunk * item)
     print(f"a task costs the scheduler {1e3 * task:.2f} ms, {100 * share:.2f} % of the work in it")
     print(f"moving a recording costs {1e3 * move * size:.2f} ms")
@@ -92,6 +93,7 @@ def main() -> int:
     )
     for workers in (1, 10, 100, 1000):
         cells = []
+        chunk = chunk_size(item, workers, CAMPAIGN)
         for each in (task / chunk, task / chunk + move * size):
             # The scheduler hands out while the workers work; the slower of the two decides. At the end a
             # worker waits for half an item in the mean.

@@ -19,7 +19,7 @@ import pandas as pd
 import pytest
 from mre_core import InputError, Level, Model
 from mre_core.batches.child import Child
-from mre_core.batches.drive import drive
+from mre_core.batches.drive import chunk_size, drive
 from mre_core.batches.engine import Engine
 from mre_core.batches.items import find_items
 from mre_core.batches.settings import Reading, Settings
@@ -214,6 +214,27 @@ def test_killed_batch_goes_on(tmp_path: Path) -> None:
         assert file.read_bytes() == (tmp_path / "whole" / "models" / file.name).read_bytes()
 
 
+def test_interrupted_batch_is_whole(tmp_path: Path) -> None:
+    folder = recordings(tmp_path / "in", 30)
+    out = tmp_path / "out"
+    arguments: Arguments = ["batch", folder, "--model", "sinh", "--optimizer", "mafsa", "--seed", "7"]
+    arguments += ["--iterations", "60", "--out", out, "--no-figures"]
+    listen = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)"
+    process = subprocess.Popen(command(*arguments, before=listen), stderr=subprocess.PIPE, text=True)
+    try:
+        while done_so_far(out) < 3:
+            assert process.poll() is None
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        _, err = process.communicate(timeout=60)
+    finally:
+        process.kill()
+    assert (process.returncode, err.strip()) == (130, "mre-core: interrupted")
+    table = mre_core.read_results(out)
+    assert 3 <= len(table) < 30
+    assert set(table["status"]) == {"done"}
+
+
 def test_changed_and_new_recordings_are_done_again(tmp_path: Path) -> None:
     folder = recordings(tmp_path / "in", 3)
     first = mre_core.batch(folder, tmp_path / "out", **FAST).set_index("item")
@@ -244,6 +265,17 @@ def test_out_of_time(tmp_path: Path) -> None:
     assert set(mre_core.batch(folder, other, budget=1e-6, **given)["status"]) == {"failed"}
     # Another attempt may be given more.
     assert set(mre_core.batch(folder, other, budget=60, **given)["status"]) == {"done"}
+
+
+def test_chunks_are_long_beside_what_a_scheduler_takes() -> None:
+    assert chunk_size(0.0, 1000, 10**6) == 1  # nothing is known yet
+    assert chunk_size(0.1, 2, 10**6) == 10
+    assert chunk_size(100.0, 2, 10**6) == 1
+    # A thousand workers at 5 ms a message would ask for 5 s of work in each, at least.
+    assert chunk_size(0.1, 1000, 10**6) * 0.1 >= 5
+    # At the end no worker has more than its share.
+    assert chunk_size(0.1, 4, 24) == 3
+    assert chunk_size(0.1, 4, 1) == 1
 
 
 def test_a_process_that_is_killed_is_started_again(five: Path) -> None:

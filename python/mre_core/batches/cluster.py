@@ -50,7 +50,11 @@ def cluster_engine(address: str, folder: Path, threads: int) -> Iterator[Engine]
     local = _LOCAL.fullmatch(address)
     if address.startswith("local") and (local is None or int(local[1]) == 0):
         raise InputError(f"cluster is '{address}'", wanted="local:N with N workers, or an address")
-    settings = {"distributed.comm.timeouts.connect": _PATIENCE, "distributed.worker.daemon": False}
+    settings = {
+        "distributed.comm.timeouts.connect": _PATIENCE,
+        "distributed.worker.daemon": False,  # workers start processes
+        "distributed.admin.large-graph-warning-threshold": "1GiB",  # files that travel are meant to
+    }
     with ExitStack() as stack:
         stack.enter_context(dask.config.set(settings))
         target: Any = address

@@ -10,9 +10,11 @@ from ..errors import InputError, one_line
 from .engine import Engine, work_on
 from .work import Outcome, Task
 
-CHUNK_SECONDS = 1.0
-"""Work of one message to a worker: what a scheduler takes for one, some ms, is small beside it."""
-_LARGEST_CHUNK = 64
+_CHUNK_SECONDS = 1.0
+_SECONDS_A_SLOT = 0.01
+_LARGEST_CHUNK = 1000
+_LARGEST_PARCEL = 8
+"""Items whose files travel together."""
 _AHEAD = 2
 """Chunks that wait or are worked on for every slot, so that none runs dry."""
 
@@ -36,7 +38,8 @@ def drive(
     try:
         while waiting or running:
             while waiting and len(running) < _AHEAD * engine.slots:
-                size = _chunk_size(seconds, count, len(waiting), engine.slots)
+                size = chunk_size(seconds / count if count else 0.0, engine.slots, len(waiting))
+                size = size if engine.sees_files else min(size, _LARGEST_PARCEL)
                 chunk = [waiting.popleft() for _ in range(size)]
                 running[_submit(engine, chunk, budget)] = chunk
             finished, _ = wait(running, return_when=FIRST_COMPLETED)
@@ -55,11 +58,24 @@ def drive(
             future.cancel()
 
 
-def _chunk_size(seconds: float, count: int, left: int, slots: int) -> int:
-    """As many items as make a chunk of `CHUNK_SECONDS`, fewer towards the end, one before any is known."""
-    if count == 0:
+def chunk_size(seconds: float, slots: int, left: int) -> int:
+    """How many items go to a worker together.
+
+    A scheduler takes some ms for a message, and one at a time for all workers: the work of a message is to
+    be long beside that, the longer the more workers there are.
+
+    Parameters
+    ----------
+    seconds : float
+        Of an item in the mean; zero where none is known yet, which makes one item.
+    slots : int
+        Items that are worked on at a time.
+    left : int
+        Items that are left. Towards the end the chunks become small, so that all workers end together.
+    """
+    if seconds <= 0:
         return 1
-    size = CHUNK_SECONDS / max(seconds / count, 1e-3)
+    size = max(_CHUNK_SECONDS, _SECONDS_A_SLOT * slots) / max(seconds, 1e-3)
     return max(1, min(int(size), _LARGEST_CHUNK, left // (2 * slots)))
 
 
