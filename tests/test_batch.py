@@ -5,8 +5,6 @@ import re
 import shutil
 import signal
 import sqlite3
-import subprocess
-import time
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
@@ -25,7 +23,7 @@ from mre_core.batches.items import find_items
 from mre_core.batches.settings import Reading, Settings
 from mre_core.batches.work import Outcome, Task
 from pandas.testing import assert_frame_equal
-from rig import SINH, Cli, command, everything_in, made_of, motion, record, run_process, write_csv
+from rig import SINH, Cli, everything_in, made_of, motion, record, run_process, write_csv
 from test_full_disk import FULL
 
 Arguments = list[str | Path]
@@ -169,41 +167,48 @@ def test_failures_stop_nothing(cli: Cli, tmp_path: Path) -> None:
     assert set(mre_core.read_results(out)["status"]) == {"failed"}
 
 
-def done_so_far(out: Path) -> int:
-    try:
-        with sqlite3.connect(f"file:{out / 'batch.sqlite3'}?mode=ro", uri=True) as db:
-            return int(db.execute("select count(*) from done").fetchone()[0])
-    except sqlite3.OperationalError:
-        return 0
+# The process strikes itself at a moment of the batch: before or after it keeps what is done, or when it
+# writes the results.
+STRIKE = """
+import os, signal
+from mre_core.batches import ledger
+from mre_core.batches.journal import Journal
+signal.signal(signal.SIGINT, signal.default_int_handler)
+write, table, kept = Journal.write, ledger.to_table, []
+def strike(moment):
+    if moment == {moment!r}:
+        os.kill(os.getpid(), signal.{signal})
+def struck_write(self, entries):
+    kept.extend(entries)
+    if len(kept) >= 3:
+        strike("before")
+    write(self, entries)
+    if len(kept) >= 3:
+        strike("after")
+def struck_table(rows):
+    strike("table")
+    return table(rows)
+Journal.write, ledger.to_table = struck_write, struck_table
+"""
 
 
-def test_killed_batch_goes_on(tmp_path: Path) -> None:
-    folder = recordings(tmp_path / "in", 30)
-    whole = mre_core.batch(
-        folder, tmp_path / "whole", model="sinh", optimizer="mafsa", seed=7, max_iterations=60
-    )
+def done_in(out: Path) -> int:
+    db = sqlite3.connect(out / "batch.sqlite3")
+    (count,) = db.execute("select count(*) from done").fetchone()
+    db.close()
+    return int(count)
+
+
+@pytest.mark.parametrize("moment", ["before", "after", "table"])
+def test_killed_batch_goes_on(tmp_path: Path, moment: str) -> None:
+    folder = recordings(tmp_path / "in", 12)
+    whole = mre_core.batch(folder, tmp_path / "whole", model="sinh", optimizer="mafsa", seed=7, n_fish=10)
     out = tmp_path / "killed"
-    arguments: Arguments = [
-        "batch",
-        folder,
-        "--model",
-        "sinh",
-        "--optimizer",
-        "mafsa",
-        "--iterations",
-        "60",
-    ]
+    arguments: Arguments = ["batch", folder, "--model", "sinh", "--optimizer", "mafsa", "--fish", "10"]
     arguments += ["--out", out, "--no-figures"]
-    process = subprocess.Popen(command(*arguments, "--seed", "7"), stdout=subprocess.DEVNULL)
-    try:
-        while done_so_far(out) < 3:
-            assert process.poll() is None
-            time.sleep(0.01)
-    finally:
-        process.send_signal(signal.SIGKILL)
-        process.wait()
-    kept = done_so_far(out)
-    assert 3 <= kept < 30
+    killed = run_process(*arguments, "--seed", "7", before=STRIKE.format(moment=moment, signal="SIGKILL"))
+    assert killed.returncode == -signal.SIGKILL
+    assert done_in(out) in {"before": (0, 1, 2), "after": range(3, 12), "table": (12,)}[moment]
     assert not (out / "results.parquet").exists()
     # The seed need not be said again.
     assert run_process(*arguments).returncode == 0
@@ -215,23 +220,13 @@ def test_killed_batch_goes_on(tmp_path: Path) -> None:
 
 
 def test_interrupted_batch_is_whole(tmp_path: Path) -> None:
-    folder = recordings(tmp_path / "in", 30)
+    folder = recordings(tmp_path / "in", 12)
     out = tmp_path / "out"
-    arguments: Arguments = ["batch", folder, "--model", "sinh", "--optimizer", "mafsa", "--seed", "7"]
-    arguments += ["--iterations", "60", "--out", out, "--no-figures"]
-    listen = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)"
-    process = subprocess.Popen(command(*arguments, before=listen), stderr=subprocess.PIPE, text=True)
-    try:
-        while done_so_far(out) < 3:
-            assert process.poll() is None
-            time.sleep(0.01)
-        process.send_signal(signal.SIGINT)
-        _, err = process.communicate(timeout=60)
-    finally:
-        process.kill()
-    assert (process.returncode, err.strip()) == (130, "mre-core: interrupted")
+    arguments: Arguments = ["batch", folder, "--model", "sinh", "--out", out, "--no-figures"]
+    run = run_process(*arguments, before=STRIKE.format(moment="after", signal="SIGINT"))
+    assert (run.returncode, run.stderr.strip()) == (130, "mre-core: interrupted")
     table = mre_core.read_results(out)
-    assert 3 <= len(table) < 30
+    assert 3 <= len(table) < 12
     assert set(table["status"]) == {"done"}
 
 
