@@ -319,6 +319,16 @@ def test_contents_travel_to_workers_that_see_no_files(five: Path, tmp_path: Path
         drive([task], Engine(pool, 1, sees_files=False), None, found.extend)
     assert found[0].row == found[1].row
     assert found[0].error == found[1].error == ""
+    # Neither folder shows in what is said.
+    broken = tmp_path / "in" / "campaign" / "broken.csv"
+    broken.parent.mkdir(parents=True)
+    broken.write_text("time_s,displacement_mm\n")
+    found.clear()
+    with ThreadPoolExecutor(1) as pool:
+        for sees_files in (True, False):
+            drive([task_of(tmp_path / "in")], Engine(pool, 1, sees_files=sees_files), None, found.extend)
+    assert found[0].error == found[1].error
+    assert found[0].error.startswith("campaign/broken.csv: ")
 
 
 @pytest.mark.parametrize("kind", ["threads", "processes"])

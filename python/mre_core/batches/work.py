@@ -3,6 +3,8 @@
 import tempfile
 import time
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -55,7 +57,11 @@ def work(task: Task) -> Outcome:
         try:
             if task.version != __version__:
                 raise InputError(f"a worker has version {__version__}", wanted=task.version)
-            row, model = _result(_recordings(task), task)
+            with _files(task) as files:
+                try:
+                    row, model = _result(_loaded(files, task), task)
+                except MreError as problem:
+                    error = _without_folders(str(problem), files, task)
         except MreError as problem:
             error = str(problem)
         except (OSError, MemoryError) as problem:
@@ -68,9 +74,12 @@ def work(task: Task) -> Outcome:
     return Outcome(task.item, task.seed, row, model, one_line(error), lasting, seconds)
 
 
-def _recordings(task: Task) -> list[Recording]:
+@contextmanager
+def _files(task: Task) -> Iterator[list[Path]]:
+    """Give the files of a task: where they are, or as copies of what came with it."""
     if task.contents is None:
-        return _loaded([Path(file) for file in task.files], task)
+        yield [Path(file) for file in task.files]
+        return
     with tempfile.TemporaryDirectory(prefix="mre-core-") as folder:
         copies = []
         for i, (file, content) in enumerate(zip(task.files, task.contents, strict=True)):
@@ -78,7 +87,15 @@ def _recordings(task: Task) -> list[Recording]:
             copy.parent.mkdir()
             copy.write_bytes(content)
             copies.append(copy)
-        return _loaded(copies, task)
+        yield copies
+
+
+def _without_folders(text: str, files: list[Path], task: Task) -> str:
+    """Name files as seen from the folder of the batch: the same on every machine."""
+    for file in files:
+        name = task.item if len(files) == 1 and file.name == task.item else f"{task.item}/{file.name}"
+        text = text.replace(str(file), name)
+    return text
 
 
 def _loaded(files: list[Path], task: Task) -> list[Recording]:
