@@ -9,6 +9,7 @@ import sys
 import tempfile
 import time
 from concurrent.futures import wait
+from contextlib import ExitStack
 from pathlib import Path
 
 import mre_core
@@ -19,7 +20,7 @@ from mre_core.batches.drive import chunk_size
 
 SAMPLES = 10_000
 RATE = 256.0
-REPEATS = 3
+REPEATS = 5
 CAMPAIGN = 100_000
 """Items of the campaign that the model is extrapolated to."""
 
@@ -45,11 +46,18 @@ def seconds_of(folder: Path, address: str) -> tuple[float, float]:
         return time.perf_counter() - start, float(table["fit_time"].sum())
 
 
-def on_workers(folder: Path, count: int) -> tuple[float, float]:
-    """Shortest of some batches on a number of workers; the first only starts the processes."""
-    with LocalCluster(n_workers=count, threads_per_worker=1, dashboard_address=None) as cluster:
-        seconds_of(folder, cluster.scheduler_address)
-        return min(seconds_of(folder, cluster.scheduler_address) for _ in range(REPEATS))
+def on_workers(folder: Path) -> list[tuple[float, float]]:
+    """Shortest of some batches on one worker and on two, by turns; the first only start the processes."""
+    with ExitStack() as stack:
+        clusters = [
+            stack.enter_context(LocalCluster(n_workers=n, threads_per_worker=1, dashboard_address=None))
+            for n in (1, 2)
+        ]
+        runs = [
+            [seconds_of(folder, cluster.scheduler_address) for cluster in clusters]
+            for _ in range(1 + REPEATS)
+        ]
+    return [min(on_one) for on_one in zip(*runs[1:], strict=True)]
 
 
 def overheads(size: int) -> tuple[float, float]:
@@ -76,8 +84,7 @@ def main() -> int:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         size = write_recordings(folder, count)
-        one, work = on_workers(folder, 1)
-        two, _ = on_workers(folder, 2)
+        (one, work), (two, _) = on_workers(folder)
         task, move = overheads(int(size))
     item = work / count
     print(f"{count} recordings of {SAMPLES} samples ({size / 1e6:.2f} MB each), sinh by hybrid")

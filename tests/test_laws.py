@@ -169,7 +169,7 @@ def test_a_current_that_changes(model: str) -> None:
     for name, p in laws.items():
         np.testing.assert_allclose(found.model.laws[name].at([0, 1, 2]), p.at([0, 1, 2]), rtol=0.02)
     if model == "bouc_wen":
-        with pytest.raises(InputError, match="rho follows the current, which changes within 'test'"):
+        with pytest.raises(InputError, match="rho follows what changes within 'test'"):
             mre_core.fit_laws(recordings, model, kinds | {"rho": "linear"})
 
 
@@ -209,6 +209,58 @@ def test_outside_what_was_tested(tmp_path: Path) -> None:
     np.testing.assert_array_equal(mre_core.simulate(file, inside), mre_core.simulate(model, inside))
 
 
+def test_over_temperature(tmp_path: Path) -> None:
+    """A device that softens as it warms up, in steady tests and in one that warms up."""
+
+    def stiffness(degrees: Any) -> Any:
+        return 9 - 0.1 * degrees
+
+    recordings = []
+    for n, degrees in enumerate((10.0, 20.0, 40.0)):
+        moved = motion(5.0 + n, rate=64, current=1.0)
+        device = made_of("kelvin_voigt", {"c0": 0.3, "k0": stiffness(degrees), "F0": 0.0})
+        made = record(device, moved, noise=0.01, seed=n)
+        recordings.append(Recording(made.time, made.displacement, made.force, velocity=made.velocity,
+            current=1.0, temperature=degrees))  # fmt: skip
+    found = mre_core.fit_laws(recordings, "kelvin_voigt", over="temperature")
+    kinds = {name: p.law.kind for name, p in found.model.laws.items()}
+    assert kinds == {"c0": "constant", "k0": "linear", "F0": "constant"}
+    assert set(found.by_level) == {10.0, 20.0, 40.0}
+    file = tmp_path / "model.json"
+    file.write_text(json.dumps(found.model.to_dict()))
+    model = Model.load(file)
+    assert model == found.model
+    moved = motion(5.0, rate=64)
+    warming = np.linspace(10, 40, len(moved))
+    moved = Recording(moved.time, moved.displacement, None, velocity=moved.velocity, temperature=warming)
+    force = mre_core.simulate(model, moved)
+    wanted = 0.3 * moved.velocity + stiffness(warming) * moved.displacement
+    np.testing.assert_allclose(force, wanted, atol=0.01)
+    hot = Recording(moved.time, moved.displacement, None, velocity=moved.velocity, temperature=50.0)
+    with pytest.warns(ExtrapolationWarning, match="temperature goes 10 degC beyond the tested 10 to 40: the"):
+        mre_core.simulate(model, hot)
+    with pytest.raises(InputError, match="has no temperature"):
+        mre_core.simulate(model, motion(5.0))
+    with pytest.raises(InputError, match=r"recordings at several currents \(0 A, 1 A\), wanted one"):
+        mre_core.fit_laws(campaign((0.0, 1.0)), over="amplitude")
+    with pytest.raises(InputError, match="over is 'field', wanted current or temperature or amplitude"):
+        mre_core.fit_laws(recordings, over="field")  # type: ignore[arg-type]
+
+
+def test_over_amplitude() -> None:
+    """The replica of the seed paper: at every amplitude another stiffness."""
+    recordings = []
+    for n, (amplitude, c0) in enumerate([(2.0, 0.354), (4.0, 0.307), (8.0, 0.278)]):
+        device = made_of("kelvin_voigt", {"c0": c0, "k0": 5.0, "F0": 0.0})
+        recordings.append(record(device, motion(amplitude), noise=0.01, seed=n))
+    found = mre_core.fit_laws(recordings, "kelvin_voigt", {"c0": "free"}, ["k0", "F0"], over="amplitude")
+    np.testing.assert_allclose(found.model.laws["c0"].values, [0.354, 0.307, 0.278], atol=1e-3)
+    between = motion(6.0)
+    middle = made_of("kelvin_voigt", {"c0": 0.2925, "k0": 5.0, "F0": 0.0})
+    force = mre_core.simulate(found.model, between)
+    np.testing.assert_allclose(force, mre_core.simulate(middle, between), atol=0.03)
+
+
 def change(law: Mapping[str, Any]) -> Callable[[dict[str, Any]], None]:
     def do(content: dict[str, Any]) -> None:
         content["laws"]["c0"] |= law
@@ -220,10 +272,10 @@ def change(law: Mapping[str, Any]) -> Callable[[dict[str, Any]], None]:
     ("spoil", "problem"),
     [
         (change({"law": "cubic"}), "the law is 'cubic', wanted one of constant"),
-        (change({"value": [1.0]}), "a law with 1 values at [0.0, 3.0] A"),
-        (change({"current_A": [3.0, 0.0]}), "a law with 2 values at [3.0, 0.0] A"),
+        (change({"value": [1.0]}), "a law with 1 values at [0.0, 3.0]"),
+        (change({"at": [3.0, 0.0]}), "a law with 2 values at [3.0, 0.0]"),
         (change({"law": "quadratic"}), "a quadratic law with values"),
-        (change({"saturation_A": 1.0}), "saturation_A is 1.0 in a linear law"),
+        (change({"saturation": 1.0}), "saturation is 1.0 in a linear law"),
         (change({"value": "x"}), "not a model"),
         (lambda content: content["laws"].pop("c0"), "laws of sinh are k0, alpha, beta, F0"),
     ],
@@ -247,7 +299,7 @@ def test_refused() -> None:
         "a law for 'b', wanted one of": (recordings, "sinh", {}, ["b"]),
         "the law of c0 is 'cubic', wanted one of": (recordings, "sinh", {"c0": "cubic"}),
         "beta is shared and linear": (recordings, "sinh", {"beta": "linear"}, ["beta"]),
-        "quadratic for c0 with 2 currents, wanted at least 3 currents": (
+        "quadratic for c0 with 2 levels of the current, wanted at least 3": (
             recordings,
             "sinh",
             {"c0": "quadratic"},
@@ -320,7 +372,7 @@ def test_command(cli: Cli, tmp_path: Path) -> None:
         assert fit["rms"] == pytest.approx(float(np.sqrt(np.mean(error**2))), rel=1e-6)
     for wrong, problem in {
         "--law c0": "--law c0, wanted --law NAME=LAW",
-        "--predict 7": "no recording at 7 A",
+        "--predict 7": "no recording at 7, wanted the current of some",
     }.items():
         status, _, err = cli(*arguments, *wrong.split(), "--out", tmp_path / "new")
         assert (status, err.count("\n")) == (2, 1)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from . import _core
 from ._core import Recording
 from .current_laws.law import Dependence
+from .current_laws.variable import check_over, series_of
 from .effects import Effect
 from .errors import ExtrapolationWarning, InputError
 from .tested import beyond_tested
@@ -59,6 +60,8 @@ class Model:
     laws: Mapping[str, Dependence] = field(default_factory=dict)
     """Every parameter over the current; empty where only the levels are known. The levels are then those
     that were tested."""
+    over: str = "current"
+    """What the laws run over: in place of the current, ``temperature`` or ``amplitude``."""
 
     def __post_init__(self) -> None:
         known = list(self.units)
@@ -89,15 +92,23 @@ class Model:
             (level.current, [float(level.parameters[name]) for name in self.units]) for level in self.levels
         ]
 
-    def given_for(self, recording: Recording) -> list[tuple[float | None, list[float]]]:
-        """Levels as the core takes them for a recording; where there are laws, those that it needs."""
-        if not self.laws or recording.current is None:
-            return self.given()
-        current = np.unique(np.asarray(recording.current, dtype=np.float64))
-        if len(current) > _FINE:
-            current = np.linspace(current[0], current[-1], _FINE)
-        values = np.stack([self.laws[name].at(current) for name in self.units], axis=1)
-        return [(float(i), row.tolist()) for i, row in zip(current, values, strict=True)]
+    def given_for(self, recording: Recording) -> tuple[list[tuple[float | None, list[float]]], Recording]:
+        """Levels as the core takes them for a recording, and the recording with what they are levels of."""
+        if not self.laws:
+            return self.given(), recording
+        series = series_of(recording, self.over)
+        at = np.unique(series)
+        if len(at) > _FINE:
+            at = np.linspace(at[0], at[-1], _FINE)
+        values = np.stack([self.laws[name].at(at) for name in self.units], axis=1)
+        levels: list[tuple[float | None, list[float]]] = [
+            (float(place), row.tolist()) for place, row in zip(at, values, strict=True)
+        ]
+        if self.over == "current" or len(levels) == 1:
+            return levels, recording
+        # The core interpolates between levels of the current: what changes takes its place.
+        moved = (recording.time, recording.displacement, None)
+        return levels, Recording(*moved, velocity=recording.velocity, current=series, name=recording.name)
 
     def to_dict(self) -> dict[str, Any]:
         """Content of a model file."""
@@ -120,7 +131,11 @@ class Model:
             "levels": levels,
             "tested": dict(self.tested),
             "sizes": dict(self.sizes),
-        } | ({"laws": {name: law.to_dict() for name, law in self.laws.items()}} if self.laws else {})
+        } | (
+            {"laws": {name: law.to_dict() for name, law in self.laws.items()}, "over": self.over}
+            if self.laws
+            else {}
+        )
 
     @classmethod
     def from_dict(cls, content: Any, *, file: str | None = None) -> Self:
@@ -148,8 +163,12 @@ class Model:
             )
             tested = {str(name): float(value) for name, value in content.get("tested", {}).items()}
             effects = tuple(Effect.from_dict(effect) for effect in content.get("effects", []))
+            over = str(content.get("over", "current"))
+            check_over(over)
             laws = {str(name): Dependence.from_dict(law) for name, law in content.get("laws", {}).items()}
-            return cls(str(content["model"]), levels, tested, effects, dict(content.get("sizes", {})), laws)
+            return cls(
+                str(content["model"]), levels, tested, effects, dict(content.get("sizes", {})), laws, over
+            )
         except (KeyError, TypeError, AttributeError) as error:
             raise InputError(f"not a model: {error!r}", file=file, wanted=f"a {SCHEMA} file") from None
         except ValueError as error:
@@ -233,7 +252,8 @@ def simulate(model: Model | str | os.PathLike[str], recording: Recording) -> NDA
         warnings.warn(message, ExtrapolationWarning, stacklevel=2)
     effects = [effect.given() for effect in model.effects]
     if model.name != SIMULATED:
-        return _core.simulate(model.name, model.given_for(recording), recording, effects, model.sizes or None)
+        levels, moved = model.given_for(recording)
+        return _core.simulate(model.name, levels, moved, effects, model.sizes or None)
     if recording.simulated is None:
         raise InputError(
             f"recording '{recording.name}' has no simulated force", wanted="a column simulated_force_N"

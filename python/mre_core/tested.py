@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ._core import Recording
+from .current_laws.variable import UNITS, series_of
 
 if TYPE_CHECKING:
     from .model import Model
@@ -42,6 +43,15 @@ def beyond_tested(model: "Model", recording: Recording) -> list[str]:
             found.append(
                 f"current {span}, tested from {min(known):.4g} A to {max(known):.4g} A, {beyond:.3g} A"
                 " beyond: the force of the nearest tested current is taken"
+            )
+    if f"{model.over}_from" in model.tested:
+        low, high = model.tested[f"{model.over}_from"], model.tested[f"{model.over}_to"]
+        values = series_of(recording, model.over)
+        beyond = max(low - float(values.min()), float(values.max()) - high)
+        if beyond > 0.02 + 0.02 * max(abs(low), abs(high)):
+            found.append(
+                f"{model.over} goes {beyond:.3g} {UNITS[model.over]} beyond the tested {low:.4g} to"
+                f" {high:.4g}: the parameters of the nearest are taken"
             )
     name = f"recording '{recording.name}': " if recording.name else ""
     return [name + sentence for sentence in found]

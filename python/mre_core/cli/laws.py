@@ -27,7 +27,14 @@ if TYPE_CHECKING:
 )
 @click.option("--shared", multiple=True, metavar="NAME", help="A parameter that is the same at all currents.")
 @click.option(
-    "--predict", type=float, metavar="A", help="Leave recordings at this current out, and predict them."
+    "--over",
+    default="current",
+    show_default=True,
+    metavar="current|temperature|amplitude",
+    help="What laws run over.",
+)
+@click.option(
+    "--predict", type=float, metavar="LEVEL", help="Leave recordings at this level out; predict them."
 )
 @click.option("--out", type=click.Path(path_type=Path), metavar="DIR", help="Folder for the results.")
 @click.option("--bounds", multiple=True, metavar="NAME=LOWER:UPPER", help="Bounds that replace default ones.")
@@ -46,6 +53,7 @@ def laws(
     model: str,
     laws: tuple[str, ...],
     shared: tuple[str, ...],
+    over: str,
     predict: float | None,
     out: Path | None,
     bounds: tuple[str, ...],
@@ -83,7 +91,7 @@ def laws(
             (found,) = load_all([path], mapping, conditions, name_pattern)
             found = found if interval is None else found.cut(*interval)
             found = found.exclude(*parts) if parts else found
-            if _is_at(found, predict):
+            if _is_at(found, over, predict):
                 left_out.append(found)
             else:
                 yield found
@@ -91,11 +99,10 @@ def laws(
     place = staged(out) if out is not None else nullcontext()
     with place as stage:
         with spinner("fitting", quiet=quiet):
-            found = fit_laws(read(), model, _laws(laws), shared, bounds=read_bounds(bounds), **options)
+            settings: dict[str, Any] = {"over": over, "bounds": read_bounds(bounds), **options}
+            found = fit_laws(read(), model, _laws(laws), shared, **settings)
         if predict is not None and not left_out:
-            raise InputError(
-                f"no recording at {predict:g} A", wanted="--predict with a current of a recording"
-            )
+            raise InputError(f"no recording at {predict:g}", wanted=f"the {over} of some recording")
         predicted = [measure_fit(found.model, recording) for recording in left_out]
         if isinstance(stage, Stage):
             stage.write_json("model.json", found.model.to_dict())
@@ -106,11 +113,14 @@ def laws(
     return 0
 
 
-def _is_at(recording: "Recording", current: float | None) -> bool:
+def _is_at(recording: "Recording", over: str, level: float | None) -> bool:
+    from ..current_laws.variable import series_of
     from ..grouping import same_level
 
-    level = recording.current_level
-    return None not in (level, current) and same_level(float(level or 0), float(current or 0))
+    if level is None:
+        return False
+    series = series_of(recording, over)
+    return len(series) == 1 and same_level(float(series[0]), level)
 
 
 def _laws(texts: tuple[str, ...]) -> dict[str, str]:
@@ -133,20 +143,22 @@ def _print(found: "LawFit", predicted: "list[Fit]") -> None:
     """Values of every law, errors of the fit and of what was left out."""
     from rich.table import Table
 
+    from ..current_laws.variable import UNITS
     from .show import console
 
+    over, unit = found.model.over, UNITS[found.model.over]
     out = console()
-    table = Table(title=f"{found.model.name}, laws over the current", title_justify="left")
-    for column in ("parameter", "law", "values", "at / A", "unit"):
+    table = Table(title=f"{found.model.name}, laws over the {over}", title_justify="left")
+    for column in ("parameter", "law", "values", f"at / {unit}", "unit"):
         table.add_column(column)
     for name, p in found.model.laws.items():
         values = ", ".join(f"{value:.5g}" for value in p.values)
         nodes = ", ".join(f"{node:g}" for node in p.law.nodes) if len(p.values) > 1 else "all"
-        kind = p.law.kind if p.law.saturation is None else f"saturating, s = {p.law.saturation:.3g} A"
+        kind = p.law.kind if p.law.saturation is None else f"saturating, s = {p.law.saturation:.3g} {unit}"
         table.add_row(name, kind, values, nodes, found.model.units[name])
     out.print(table)
     table = Table(title="rms error / % of the force's rms", title_justify="left")
-    for column in ("current / A", "fitted", "predicted from the others"):
+    for column in (f"{over} / {unit}", "fitted", "predicted from the others"):
         table.add_column(column, justify="right")
     left_out = found.left_out.by_level if found.left_out is not None else {}
     for level, error in found.by_level.items():

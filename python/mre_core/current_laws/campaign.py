@@ -1,4 +1,7 @@
-"""A campaign as a joint fit sees it: levels of the current, and recordings whose current changes."""
+"""A campaign as a joint fit sees it: levels of the current, and recordings whose current changes.
+
+What is said of the current holds for what else laws may run over (`variable`).
+"""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -15,6 +18,7 @@ from .factors import DirectFactor, SinhFactor, sample_columns, triangle
 from .law import Dependence, Law
 from .shapes import ShapeBox, shape_boxes
 from .structure import Structure
+from .variable import series_of
 
 Array = NDArray[np.float64]
 
@@ -34,10 +38,10 @@ class Part(Protocol):
 
 @dataclass
 class Steady:
-    """All recordings at one current."""
+    """All recordings at one level."""
 
     members: list[float]
-    """Their currents, A."""
+    """The level of each."""
     factor: SinhFactor | DirectFactor
 
     @property
@@ -64,23 +68,24 @@ class Changing:
 
     structure: Structure
     recording: Recording
+    series: Array
+    """What the laws run over, one value a sample."""
     weight: float
 
     @property
     def currents(self) -> tuple[float, ...]:
         """Lowest and highest."""
-        series = np.asarray(self.recording.current)
-        return (float(series.min()), float(series.max()))
+        return (float(self.series.min()), float(self.series.max()))
 
     def rows(self, laws: Sequence[Law], shapes: Sequence[Dependence]) -> tuple[Array, Array]:
         """Columns sample by sample, turned to as many rows as columns."""
         for name, shape in zip(self.structure.shapes, shapes, strict=True):
             if shape.law.kind != "constant":
-                problem = f"{name} follows the current, which changes within '{self.recording.name}'"
+                problem = f"{name} follows what changes within '{self.recording.name}'"
                 raise InputError(problem, wanted=f"{name} constant")
         values = tuple(shape.values[0] for shape in shapes)
         samples = np.sqrt(self.weight) * sample_columns(self.structure, self.recording, values)
-        current = np.asarray(self.recording.current)[slice(*self.recording.scored)]
+        current = self.series[slice(*self.recording.scored)]
         weighted = [samples[:, [j]] * law.weights(current) for j, law in enumerate(laws)]
         factor = triangle(np.hstack([*weighted, samples[:, -1:]]))
         return factor[:, :-1], factor[:, -1]
@@ -97,6 +102,8 @@ class Campaign:
     shape_boxes: Mapping[str, ShapeBox]
     tested: Mapping[str, float]
     """Largest displacement in mm and velocity in mm/s."""
+    current: float | None
+    """Of all recordings, where that is not what the laws run over."""
     samples: int
     weight: float
     """Sum of the weights of all samples."""
@@ -126,20 +133,25 @@ def read_campaign(
     recordings: Iterable[Recording],
     structure: Structure,
     bounds: Mapping[str, tuple[float, float]],
+    over: str,
     *,
     by_force: bool,
 ) -> Campaign:
     """Work in recordings one after the other; `by_force` weights them by their mean squared force.
 
+    `over` is what laws run over; where that is not the current, all recordings have the same one.
+
     Raises
     ------
     InputError
-        No recording, one without force or current, a bound of no parameter, or one that is reversed.
+        No recording, one without force or without what the laws run over, other currents beside that, a
+        bound of no parameter, or one that is reversed.
     """
     steady: list[Steady] = []
     changing: list[Changing] = []
     farthest = fastest = strongest = weights = 0.0
     samples = 0
+    currents: set[float | None] = set()
     for recording in recordings:
         force = recording.force
         if force is None:
@@ -151,13 +163,16 @@ def read_campaign(
         strongest = max(strongest, float(np.abs(force).max()))
         samples += last - first
         weights += weight * (last - first)
-        if recording.current_varies:
-            changing.append(Changing(structure, recording, weight))
-        elif recording.current_level is None:
-            wanted = "current=VALUE[A] for all: a law needs the current"
-            raise InputError(f"recording '{recording.name}' has no current", wanted=wanted)
+        series = series_of(recording, over)
+        if len(series) > 1:
+            changing.append(Changing(structure, recording, series, weight))
         else:
-            _level(steady, recording.current_level, structure).add(recording, weight)
+            _level(steady, float(series[0]), structure).add(recording, weight)
+        if over != "current":
+            currents.add(_steady_current(recording, over))
+    if len(currents) > 1:
+        found = ", ".join("unknown" if c is None else f"{c:g} A" for c in sorted(currents, key=str))
+        raise InputError(f"recordings at several currents ({found})", wanted=f"one, for laws over {over}")
     if not samples:
         raise InputError("recordings are an empty list", wanted="at least one recording")
     for name, (low, high) in bounds.items():
@@ -174,9 +189,17 @@ def read_campaign(
         {name: bounds.get(name, limits[name]) for name in structure.coefficients},
         shape_boxes(structure, farthest, kept, bounds),
         {"displacement_mm": farthest, "velocity_mm_s": fastest},
+        next(iter(currents), None),
         samples,
         weights,
     )
+
+
+def _steady_current(recording: Recording, over: str) -> float | None:
+    if recording.current_varies:
+        problem = f"the current changes within '{recording.name}'"
+        raise InputError(problem, wanted=f"a constant one, for laws over {over}")
+    return recording.current_level
 
 
 def _level(steady: list[Steady], current: float, structure: Structure) -> SinhFactor | DirectFactor:

@@ -14,6 +14,7 @@ from .choose import Trial, choose, laws_of, leave_one_current_out, misfit
 from .joint import Joint, fit
 from .law import FEWEST, LAWS
 from .structure import Structure
+from .variable import Over, check_over
 
 
 @dataclass(frozen=True)
@@ -26,7 +27,7 @@ class LawFit:
     relative_rms: float
     """The same as a share of the force's rms."""
     by_level: Mapping[float, float]
-    """The same by level of the current in A."""
+    """The same by level of the current in A, or of what else the laws run over."""
     left_out: Trial | None
     """How well each level is predicted from the others; None where there are too few."""
     trials: tuple[Trial, ...]
@@ -41,7 +42,8 @@ class LawFit:
             "laws": {name: law.to_dict() for name, law in self.model.laws.items()},
             "rms_N": self.rms,
             "relative_rms": self.relative_rms,
-            "relative_rms_by_current": _rows(self.by_level),
+            "over": self.model.over,
+            "relative_rms_by_level": _rows(self.by_level),
             "left_out": None if self.left_out is None else _trial(self.left_out),
             "trials": [_trial(trial) for trial in self.trials],
             "samples": self.samples,
@@ -54,6 +56,7 @@ def fit_laws(
     laws: Mapping[str, str] | None = None,
     shared: Sequence[str] = (),
     *,
+    over: Over = "current",
     bounds: Mapping[str, tuple[float, float]] | None = None,
     weights: Literal["samples", "force"] = "samples",
 ) -> LawFit:
@@ -72,6 +75,9 @@ def fit_laws(
         named are chosen: by the error at currents that are left out of the fit.
     shared : sequence of str
         Parameters that are the same at all currents; the same as ``"constant"``.
+    over : {"current", "temperature", "amplitude"}
+        What laws run over: A, degC, or the largest displacement in mm. Where it is not the current, all
+        recordings have the same one.
     bounds : mapping of name to (lower, upper), optional
         Of the values of a parameter, in place of the default ones.
     weights : {"samples", "force"}
@@ -91,19 +97,20 @@ def fit_laws(
     from threadpoolctl import threadpool_limits  # type: ignore[import-untyped]
 
     structure = Structure.of(model)
+    check_over(over)
     if weights not in ("samples", "force"):
         raise InputError(f"weights is {weights!r}", wanted="samples or force")
     given = _given(structure, laws or {}, shared)
     with threadpool_limits(1, "blas"):  # the same bits on any machine, and no waiting of small matrices
-        campaign = read_campaign(recordings, structure, bounds or {}, by_force=weights == "force")
+        campaign = read_campaign(recordings, structure, bounds or {}, over, by_force=weights == "force")
         for name, kind in given.items():
             if len(campaign.levels) < FEWEST[kind]:
-                found = f"{kind} for {name} with {len(campaign.levels)} currents"
-                raise InputError(found, wanted=f"at least {FEWEST[kind]} currents")
+                found = f"{kind} for {name} with {len(campaign.levels)} levels of the {over}"
+                raise InputError(found, wanted=f"at least {FEWEST[kind]}")
         kinds, trials = choose(campaign, given) if len(given) < len(structure.names) else (given, [])
         joint = fit(campaign, laws_of(kinds, campaign.levels))
         left_out = leave_one_current_out(campaign, kinds, joint)
-        return _result(campaign, joint, left_out, trials)
+        return _result(campaign, joint, over, left_out, trials)
 
 
 def _given(structure: Structure, laws: Mapping[str, str], shared: Sequence[str]) -> dict[str, str]:
@@ -119,8 +126,15 @@ def _given(structure: Structure, laws: Mapping[str, str], shared: Sequence[str])
     return {name: found[name] for name in structure.names if name in found}
 
 
-def _result(campaign: Campaign, joint: Joint, left_out: Trial | None, trials: Sequence[Trial]) -> LawFit:
-    levels = tuple(Level(current, joint.at(current)) for current in campaign.levels)
+def _result(
+    campaign: Campaign, joint: Joint, over: str, left_out: Trial | None, trials: Sequence[Trial]
+) -> LawFit:
+    tested = campaign.levels
+    if over == "current":
+        levels = tuple(Level(current, joint.at(current)) for current in tested)
+    else:  # a level is one of the current
+        levels = (Level(campaign.current, joint.at(0.5 * (tested[0] + tested[-1]))),)
+    ends = {} if over == "current" else {f"{over}_from": tested[0], f"{over}_to": tested[-1]}
     squares, force = misfit(campaign, joint)
     by_level = {}
     for part in campaign.parts:
@@ -130,7 +144,9 @@ def _result(campaign: Campaign, joint: Joint, left_out: Trial | None, trials: Se
     mean = squares / campaign.weight
     scale = force / campaign.weight
     return LawFit(
-        Model(campaign.structure.model, levels, campaign.tested, laws=joint.parameters),
+        Model(
+            campaign.structure.model, levels, {**campaign.tested, **ends}, laws=joint.parameters, over=over
+        ),
         float(np.sqrt(mean)),
         float(np.sqrt(mean / scale)),
         by_level,
@@ -142,8 +158,8 @@ def _result(campaign: Campaign, joint: Joint, left_out: Trial | None, trials: Se
 
 def _trial(trial: Trial) -> dict[str, Any]:
     by_level = _rows(trial.by_level)
-    return {"laws": dict(trial.laws), "relative_rms": trial.error, "relative_rms_by_current": by_level}
+    return {"laws": dict(trial.laws), "relative_rms": trial.error, "relative_rms_by_level": by_level}
 
 
 def _rows(by_level: Mapping[float, float]) -> list[dict[str, float]]:
-    return [{"current_A": current, "relative_rms": error} for current, error in by_level.items()]
+    return [{"level": level, "relative_rms": error} for level, error in by_level.items()]

@@ -17,7 +17,7 @@ FEWEST = {"constant": 1, "linear": 2, "quadratic": 3, "saturating": 3, "free": 1
 
 @dataclass(frozen=True)
 class Law:
-    """A law without its values.
+    """A law without its values, over the current in A or what else a model says (`Model.over`).
 
     Between the lowest current ``a`` and the highest ``b``, with ``u = (I - a) / (b - a)``:
 
@@ -85,10 +85,10 @@ class Dependence:
         """Content of a model file."""
         content = {
             "law": self.law.kind,
-            "current_A": list(self.law.nodes),
+            "at": list(self.law.nodes),
             "value": list(self.values),
         }
-        return content | ({} if self.law.saturation is None else {"saturation_A": self.law.saturation})
+        return content | ({} if self.law.saturation is None else {"saturation": self.law.saturation})
 
     @classmethod
     def from_dict(cls, content: Mapping[str, Any]) -> Self:
@@ -99,9 +99,9 @@ class Dependence:
         InputError
             An unknown law, currents that do not rise, another number of values, or one that is not finite.
         """
-        kind, nodes = str(content["law"]), tuple(map(float, content["current_A"]))
+        kind, nodes = str(content["law"]), tuple(map(float, content["at"]))
         values = tuple(map(float, content["value"]))
-        saturation = content.get("saturation_A")
+        saturation = content.get("saturation")
         saturation = None if saturation is None else float(saturation)
         if kind not in LAWS:
             raise InputError(f"the law is {kind!r}", wanted=f"one of {', '.join(LAWS)}")
@@ -115,5 +115,5 @@ class Dependence:
             raise InputError(f"a {kind} law with values {list(values)}", wanted=f"{count} finite values")
         if (saturation is not None) != (kind == "saturating") or (saturation is not None and saturation <= 0):
             wanted = "a positive one for a saturating law, none for others"
-            raise InputError(f"saturation_A is {saturation} in a {kind} law", wanted=wanted)
+            raise InputError(f"saturation is {saturation} in a {kind} law", wanted=wanted)
         return cls(Law(kind, nodes, saturation), values)
