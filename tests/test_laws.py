@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mre_core import Dependence, ExtrapolationWarning, InputError, Law, Level, Model, Recording
-from mre_core.current_laws.factors import SinhFactor, sample_columns
+from mre_core.current_laws.factors import Samples, SinhFactor
 from mre_core.current_laws.structure import Structure
 from rig import BOUC_WEN, Cli, force_of, made_of, motion, record, run_script, write_csv
 from scipy.optimize import lsq_linear, minimize_scalar  # type: ignore[import-untyped]
@@ -86,7 +86,7 @@ def test_the_factor_is_the_samples(beta: float) -> None:
         moved = motion(amplitude, rate=100 + n)
         recording = record(made_of("sinh", {name: law(1.0) for name, law in TRUTH.items()}), moved, noise=1.0)
         factor.add(recording, 1.0 + n)
-        parts.append(np.sqrt(1.0 + n) * sample_columns(structure, recording, (beta,)))
+        parts.append(Samples(structure, recording, 1.0 + n).at((beta,)))
     samples = np.vstack(parts)
     columns, force = factor.columns((beta,))
     small = np.column_stack([columns, force])

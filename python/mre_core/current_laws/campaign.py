@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from .._core import Recording
 from ..errors import InputError
 from ..grouping import same_level
-from .factors import DirectFactor, SinhFactor, sample_columns, triangle
+from .factors import DirectFactor, Samples, SinhFactor, triangle
 from .law import Dependence, Law
 from .shapes import ShapeBox, shape_boxes
 from .structure import Structure
@@ -67,10 +67,9 @@ class Changing:
     """A recording whose current changes; kept in memory."""
 
     structure: Structure
-    recording: Recording
+    samples: Samples
     series: Array
     """What the laws run over, one value a sample."""
-    weight: float
 
     @property
     def currents(self) -> tuple[float, ...]:
@@ -81,11 +80,11 @@ class Changing:
         """Columns sample by sample, turned to as many rows as columns."""
         for name, shape in zip(self.structure.shapes, shapes, strict=True):
             if shape.law.kind != "constant":
-                problem = f"{name} follows what changes within '{self.recording.name}'"
+                problem = f"{name} follows what changes within '{self.samples.recording.name}'"
                 raise InputError(problem, wanted=f"{name} constant")
         values = tuple(shape.values[0] for shape in shapes)
-        samples = np.sqrt(self.weight) * sample_columns(self.structure, self.recording, values)
-        current = self.series[slice(*self.recording.scored)]
+        samples = self.samples.at(values)
+        current = self.series[slice(*self.samples.recording.scored)]
         weighted = [samples[:, [j]] * law.weights(current) for j, law in enumerate(laws)]
         factor = triangle(np.hstack([*weighted, samples[:, -1:]]))
         return factor[:, :-1], factor[:, -1]
@@ -165,7 +164,7 @@ def read_campaign(
         weights += weight * (last - first)
         series = series_of(recording, over)
         if len(series) > 1:
-            changing.append(Changing(structure, recording, series, weight))
+            changing.append(Changing(structure, Samples(structure, recording, weight), series))
         else:
             _level(steady, float(series[0]), structure).add(recording, weight)
         if over != "current":
@@ -182,7 +181,7 @@ def read_campaign(
             raise InputError(f"bounds of {name} are {low} to {high}", wanted="lower at most upper")
     limits = structure.limits(strongest)
     held = [p.factor for p in steady if isinstance(p.factor, DirectFactor)]
-    kept = [r for factor in held for r in factor.recordings] + [c.recording for c in changing]
+    kept = [r for factor in held for r in factor.recordings] + [c.samples.recording for c in changing]
     return Campaign(
         structure,
         (*sorted(steady, key=lambda p: p.currents), *changing),

@@ -67,7 +67,7 @@ def laws_of(kinds: Mapping[str, str], levels: Sequence[float]) -> dict[str, Law]
     return {name: Law.of(kind, levels) for name, kind in kinds.items()}
 
 
-def choose(campaign: Campaign, given: Mapping[str, str]) -> tuple[dict[str, str], list[Trial]]:
+def choose(campaign: Campaign, given: Mapping[str, str]) -> tuple[dict[str, str], list[Trial], Joint]:
     """Choose the laws that are not given, one parameter after the other, while the prediction improves.
 
     Begins with constants. In every round the change is made that predicts the levels left out best, if it
@@ -76,8 +76,8 @@ def choose(campaign: Campaign, given: Mapping[str, str]) -> tuple[dict[str, str]
 
     Returns
     -------
-    (kinds, trials)
-        The law of each parameter, and what was tried, in the order of the rounds.
+    (kinds, trials, start)
+        The law of each parameter; what was tried, in the order of the rounds; a fit to start the last from.
     """
     structure = campaign.structure
     open_to = [name for name in structure.names if name not in given]
@@ -86,7 +86,8 @@ def choose(campaign: Campaign, given: Mapping[str, str]) -> tuple[dict[str, str]
     best = leave_one_current_out(campaign, kinds, start)
     if best is None:
         plain = "linear" if len(campaign.levels) > 1 else "constant"
-        return kinds | {name: plain for name in open_to if name in structure.coefficients}, []
+        kinds |= {name: plain for name in open_to if name in structure.coefficients}
+        return kinds, [], start
     trials = [best]
     while True:
         tried = []
@@ -100,7 +101,7 @@ def choose(campaign: Campaign, given: Mapping[str, str]) -> tuple[dict[str, str]
         trials += tried
         least = min((trial.error for trial in tried), default=best.error)
         if least >= _WORTH * best.error:
-            return kinds, trials
+            return kinds, trials, start
         best = min((t for t in tried if _WORTH * t.error <= least), key=_simplicity)
         kinds = dict(best.laws)
         start = fit(campaign, laws_of(kinds, campaign.levels), start)

@@ -71,41 +71,56 @@ class DirectFactor:
 
     def __init__(self, structure: Structure) -> None:
         self._structure = structure
-        self._weighted: list[tuple[Recording, float]] = []
+        self._samples: list[Samples] = []
         self._known: dict[tuple[float, ...], tuple[Array, Array]] = {}
 
     def add(self, recording: Recording, weight: float) -> None:
         """Keep a recording."""
-        self._weighted.append((recording, weight))
+        self._samples.append(Samples(self._structure, recording, weight))
         self._known.clear()
 
     @property
     def recordings(self) -> list[Recording]:
         """What was added."""
-        return [recording for recording, _ in self._weighted]
+        return [samples.recording for samples in self._samples]
 
     def columns(self, shapes: tuple[float, ...]) -> tuple[Array, Array]:
         """Columns of the coefficients and the force, all turned alike: (k, m) and (k,)."""
         if shapes not in self._known:
             factor = np.zeros((0, len(self._structure.coefficients) + 1))
-            for recording, weight in self._weighted:
-                rows = np.sqrt(weight) * sample_columns(self._structure, recording, shapes)
-                factor = triangle(np.vstack([factor, rows]))
+            for samples in self._samples:
+                factor = triangle(np.vstack([factor, samples.at(shapes)]))
             if len(self._known) > 1000:
                 self._known.clear()
             self._known[shapes] = (factor[:, :-1], factor[:, -1])
         return self._known[shapes]
 
 
-def sample_columns(structure: Structure, recording: Recording, shapes: tuple[float, ...]) -> Array:
-    """Columns of the coefficients, then the force, at the samples that are scored."""
-    _, _, force = _scored(recording)
-    given = dict(zip(structure.shapes, shapes, strict=True))
-    columns = []
-    for name in structure.coefficients:
-        one = [given.get(other, float(other == name)) for other in structure.names]
-        columns.append(simulate(structure.model, [(None, one)], recording)[slice(*recording.scored)])
-    return np.stack([*columns, force], axis=1)
+class Samples:
+    """Columns of one recording in memory, of which those that do not follow the shapes are made once."""
+
+    def __init__(self, structure: Structure, recording: Recording, weight: float) -> None:
+        self._structure = structure
+        self.recording = recording
+        self._root = np.sqrt(weight)
+        _, _, force = _scored(recording)
+        first = tuple(1.0 for _ in structure.shapes)
+        columns = [self._column(name, first) for name in structure.coefficients]
+        self._columns = self._root * np.stack([*columns, force], axis=1)
+
+    def at(self, shapes: tuple[float, ...]) -> Array:
+        """Columns of the coefficients, then the force, at the samples that are scored."""
+        found: Array = self._columns.copy()
+        if self._structure.shaped is not None:
+            place = self._structure.coefficients.index(self._structure.shaped)
+            found[:, place] = self._root * self._column(self._structure.shaped, shapes)
+        return found
+
+    def _column(self, name: str, shapes: tuple[float, ...]) -> Array:
+        given = dict(zip(self._structure.shapes, shapes, strict=True))
+        one = [given.get(other, float(other == name)) for other in self._structure.names]
+        force: Array = simulate(self._structure.model, [(None, one)], self.recording)
+        return force[slice(*self.recording.scored)]
 
 
 def _scored(recording: Recording) -> tuple[Array, Array, Array]:

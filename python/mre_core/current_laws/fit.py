@@ -107,8 +107,10 @@ def fit_laws(
             if len(campaign.levels) < FEWEST[kind]:
                 found = f"{kind} for {name} with {len(campaign.levels)} levels of the {over}"
                 raise InputError(found, wanted=f"at least {FEWEST[kind]}")
-        kinds, trials = choose(campaign, given) if len(given) < len(structure.names) else (given, [])
-        joint = fit(campaign, laws_of(kinds, campaign.levels))
+        kinds, trials, start = given, list[Trial](), None
+        if len(given) < len(structure.names):
+            kinds, trials, start = choose(campaign, given)
+        joint = fit(campaign, laws_of(kinds, campaign.levels), start)
         left_out = leave_one_current_out(campaign, kinds, joint)
         return _result(campaign, joint, over, left_out, trials)
 

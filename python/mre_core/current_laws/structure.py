@@ -8,6 +8,8 @@ from .._core import parameters
 from ..errors import InputError
 
 _SHAPES = {"kelvin_voigt": (), "sinh": ("beta",), "bouc_wen": ("rho", "sigma", "n")}
+_SHAPED = {"sinh": "alpha", "bouc_wen": "kw"}
+"""The coefficient whose column follows the shapes."""
 _NOT_NEGATIVE = {"c0", "k0", "kx", "kw"}
 
 
@@ -21,6 +23,11 @@ class Structure:
     units: tuple[str, ...]
     coefficients: tuple[str, ...]
     shapes: tuple[str, ...]
+
+    @property
+    def shaped(self) -> str | None:
+        """The coefficient whose column follows the shapes; None where there are no shapes."""
+        return _SHAPED.get(self.model)
 
     @classmethod
     def of(cls, model: str) -> "Structure":
