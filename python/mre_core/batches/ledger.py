@@ -11,11 +11,9 @@ from ..output import staged
 from .columns import RESULTS, to_table
 from .items import Item
 from .journal import Entry, Journal
+from .run import OnProgress
 from .settings import Settings
 from .work import Outcome, Task
-
-OnProgress = Callable[[int, int, int], object]
-"""Called with the number of items that are done, that failed, and of all."""
 
 
 class Ledger:

@@ -2,8 +2,7 @@
 
 import math
 import os
-from collections.abc import Mapping, Sequence
-from concurrent.futures import Executor
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,15 +11,14 @@ from .._core import __version__
 from ..errors import InputError
 from ..minimise import draw_seed
 from .columns import read_results
-from .drive import drive
-from .engine import chosen_engine
-from .items import find_items
-from .journal import journal_in
-from .ledger import Ledger, OnProgress
-from .settings import Reading, Settings
 
 if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
     import pandas as pd
+
+OnProgress = Callable[[int, int, int], object]
+"""Called with the number of items that are done, that failed, and of all."""
 
 
 def batch(
@@ -41,7 +39,7 @@ def batch(
     workers: int | None = None,
     threads: int = 1,
     cluster: str | None = None,
-    executor: Executor | None = None,
+    executor: "Executor | None" = None,
     on_progress: OnProgress | None = None,
     **options: Any,
 ) -> "pd.DataFrame":
@@ -96,6 +94,13 @@ def batch(
         A setting cannot be used, `out` is in use, holds another batch or cannot be written, the scheduler
         cannot be reached, or the workers are gone.
     """
+    from .drive import drive  # here: what a batch needs, importing the package does not
+    from .engine import chosen_engine
+    from .items import find_items
+    from .journal import journal_in
+    from .ledger import Ledger
+    from .settings import Reading, Settings
+
     reading = Reading(dict(map or {}), dict(conditions or {}), name_pattern, cut, tuple(exclude))
     settings = Settings.of(model, base, reading, options, bootstrap)
     _check(seed, seeds, budget, workers, threads)

@@ -10,7 +10,6 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 from .._core import Recording, simulate
@@ -43,6 +42,8 @@ class SinhFactor:
 
     def add(self, recording: Recording, weight: float) -> None:
         """Work in the samples of a recording that are scored, each with the square root of its weight."""
+        from numpy.polynomial import chebyshev
+
         x, v, force = _scored(recording)
         farthest = float(np.abs(x).max())
         if farthest > self._farthest:
@@ -139,6 +140,8 @@ def _sinh_series(largest: float) -> Array:
 
 def _widened(ratio: float) -> Array:
     """From columns in x / a to columns in x / b, with a / b the ratio, at most 1."""
+    from numpy.polynomial import chebyshev
+
     change = np.eye(TERMS + 3)
     for j in range(TERMS):
         degree = 2 * j + 1
@@ -154,5 +157,7 @@ def _widened(ratio: float) -> Array:
 
 def _interpolated(function: Callable[[Array], Array], degree: int) -> Array:
     """Chebyshev series of a function on -1 to 1."""
+    from numpy.polynomial import chebyshev
+
     series: Any = chebyshev.chebinterpolate(function, degree)
     return np.asarray(series, dtype=np.float64)
