@@ -18,6 +18,7 @@ from .demo import demo
 from .diagnose import diagnose
 from .identify import identify
 from .laws import laws
+from .next_test import next_test
 from .simulate import simulate
 
 
@@ -37,7 +38,7 @@ def cli() -> None:
     """  # noqa: D301  # \b keeps the lines
 
 
-for command in (identify, diagnose, laws, batch, simulate, demo):
+for command in (identify, diagnose, laws, next_test, batch, simulate, demo):
     cli.add_command(command)
 
 
