@@ -6,6 +6,7 @@ import shutil
 import signal
 import sqlite3
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from dataclasses import replace
 from multiprocessing import get_context
 from pathlib import Path
 from threading import Timer
@@ -311,6 +312,17 @@ def test_a_file_that_changes_while_it_is_read(tmp_path: Path) -> None:
     assert outcome.error == "r000.csv: changed since the batch began, wanted files that stay as they are"
 
 
+def test_what_another_attempt_may_mend(five: Path) -> None:
+    task = task_of(five)
+    with Child() as child:
+        other = child.run(replace(task, version="0.0.1"), None)
+        gone = child.run(replace(task, files=(str(five / "gone.csv"),)), None)
+    assert other.error == f"its worker has version {mre_core.__version__}, wanted 0.0.1"
+    assert gone.error.endswith("gone.csv: there is no such file")
+    assert not other.lasting
+    assert not gone.lasting
+
+
 def test_contents_travel_to_workers_that_see_no_files(five: Path, tmp_path: Path) -> None:
     found: list[Outcome] = []
     task = task_of(five)
@@ -320,6 +332,15 @@ def test_contents_travel_to_workers_that_see_no_files(five: Path, tmp_path: Path
     assert found[0].row == found[1].row
     assert found[0].error == found[1].error == ""
     # Neither folder shows in what is said.
+    unit = tmp_path / "assumed" / "r.csv"
+    unit.parent.mkdir()
+    unit.write_text((five / "r000.csv").read_text().replace("force_N", "force"))
+    found.clear()
+    with ThreadPoolExecutor(1) as pool:
+        for sees_files in (True, False):
+            drive([task_of(unit.parent)], Engine(pool, 1, sees_files=sees_files), None, found.extend)
+    assert found[0].row["warnings"].startswith("r.csv: ")
+    assert found[0].row == found[1].row
     broken = tmp_path / "in" / "campaign" / "broken.csv"
     broken.parent.mkdir(parents=True)
     broken.write_text("time_s,displacement_mm\n")

@@ -49,29 +49,31 @@ class Outcome:
 
 def work(task: Task) -> Outcome:
     """Identify or diagnose one item."""
+    if task.version != __version__:
+        other = f"its worker has version {__version__}, wanted {task.version}"
+        return Outcome(task.item, task.seed, error=other, lasting=False)
     begin = time.perf_counter()
     row: dict[str, Any] = {}
     model, error, lasting = None, "", True
-    with warnings.catch_warnings(record=True) as said:
-        warnings.simplefilter("always")
-        try:
-            if task.version != __version__:
-                raise InputError(f"a worker has version {__version__}", wanted=task.version)
-            with _files(task) as files:
-                try:
-                    row, model = _result(_loaded(files, task), task)
-                except MreError as problem:
-                    error = _without_folders(str(problem), files, task)
-        except MreError as problem:
-            error = str(problem)
-        except (OSError, MemoryError) as problem:
-            error, lasting = f"{type(problem).__name__}: {problem}", False
-        except Exception as problem:
-            error = f"please report this with its input: {type(problem).__name__}: {problem}"
-    if not error:
-        row["warnings"] = "; ".join(dict.fromkeys(one_line(str(w.message)) for w in said))
+    try:
+        with _files(task) as files, warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always")
+            try:
+                row, model = _result(_loaded(files, task), task)
+            except MreError as problem:
+                error = _without_folders(str(problem), files, task)
+                lasting = not isinstance(problem.__context__, OSError)  # a disk may come back
+        if not error:
+            texts = [_without_folders(one_line(str(w.message)), files, task) for w in said]
+            row["warnings"] = "; ".join(dict.fromkeys(texts))
+    except (OSError, MemoryError) as problem:
+        error, lasting = f"{type(problem).__name__}: {problem}", False
+    except Exception as problem:
+        error = f"please report this with its input: {type(problem).__name__}: {problem}"
     seconds = time.perf_counter() - begin
-    return Outcome(task.item, task.seed, row, model, one_line(error), lasting, seconds)
+    if error:
+        return Outcome(task.item, task.seed, error=one_line(error), lasting=lasting, seconds=seconds)
+    return Outcome(task.item, task.seed, row, model, seconds=seconds)
 
 
 @contextmanager
