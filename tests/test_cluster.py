@@ -30,7 +30,7 @@ class Workers:
         self.scheduler = self._start(
             "scheduler", "--port", "0", "--no-dashboard", "--scheduler-file", str(self.address_file)
         )
-        while not self.address_file.exists():
+        while not (self.address_file.exists() and self.address_file.read_text().rstrip().endswith("}")):
             assert self.scheduler.poll() is None
             time.sleep(0.02)
         self.workers: list[subprocess.Popen[bytes]] = []
