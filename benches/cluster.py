@@ -1,6 +1,6 @@
 """Batches on one and two Dask workers of one thread each: efficiency, and a model of the cost.
 
-Usage: cluster.py [ITEMS], 200 by default. Prints how long the batch takes on one worker and on two, what a
+Usage: cluster.py [ITEMS], 300 by default. Prints how long the batch takes on one worker and on two, what a
 task costs the scheduler, what moving a recording costs, and what follows for up to 1,000 workers. Meant for
 an idle machine with at least three cores: two for the workers, one for the scheduler and this process.
 """
@@ -20,7 +20,7 @@ from mre_core.batches.drive import chunk_size
 
 SAMPLES = 10_000
 RATE = 256.0
-REPEATS = 5
+REPEATS = 3
 CAMPAIGN = 100_000
 """Items of the campaign that the model is extrapolated to."""
 
@@ -80,7 +80,7 @@ def overheads(size: int) -> tuple[float, float]:
 
 def main() -> int:
     """Print the measurements and the model."""
-    count = int(sys.argv[1]) if len(sys.argv) > 1 else 200
+    count = int(sys.argv[1]) if len(sys.argv) > 1 else 300
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         size = write_recordings(folder, count)
