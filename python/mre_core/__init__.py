@@ -5,8 +5,11 @@ Units everywhere: millimetre, newton, second, ampere, degree Celsius.
 
 from ._core import MreError, Problem, Recording, __version__, inertia_weight, models
 from .asktell import AskTell
+from .batches import batch, plot_parameters, read_results
 from .certificate import Certificate, certificate
 from .chunks import read_chunks
+from .current_laws.fit import LawFit, fit_laws
+from .current_laws.law import Dependence, Law
 from .diagnose import diagnose
 from .diagnosis import Diagnosis
 from .effects import Effect
@@ -25,6 +28,7 @@ __all__ = [
     "AskTell",
     "Bootstrap",
     "Certificate",
+    "Dependence",
     "Diagnosis",
     "Effect",
     "Estimate",
@@ -32,6 +36,8 @@ __all__ = [
     "Fit",
     "Identification",
     "InputError",
+    "Law",
+    "LawFit",
     "Level",
     "LoopTable",
     "Model",
@@ -46,10 +52,12 @@ __all__ = [
     "UnitAssumedWarning",
     "__version__",
     "afsa",
+    "batch",
     "bootstrap",
     "certificate",
     "diagnose",
     "exact",
+    "fit_laws",
     "from_dataframe",
     "hybrid",
     "identify",
@@ -58,9 +66,11 @@ __all__ = [
     "loops",
     "mafsa",
     "models",
+    "plot_parameters",
     "profile",
     "pso",
     "read_chunks",
+    "read_results",
     "simulate",
     "uncertainty",
 ]

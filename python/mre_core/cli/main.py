@@ -13,9 +13,11 @@ import click
 from .. import __version__
 from ..errors import MreError, one_line
 from .arguments import spread
+from .batch import batch
 from .demo import demo
 from .diagnose import diagnose
 from .identify import identify
+from .laws import laws
 from .loops import loops
 from .next_test import next_test
 from .simulate import simulate
@@ -34,10 +36,12 @@ def cli() -> None:
       mre-core diagnose test.csv --base sinh --out result
       mre-core loops test.csv --model result/model.json --out loops
       mre-core simulate result/model.json earthquake.csv --out predicted.csv
+      mre-core laws *.csv --model sinh --out result
+      mre-core batch recordings --model sinh --out results
     """  # noqa: D301  # \b keeps the lines
 
 
-for command in (identify, diagnose, loops, next_test, simulate, demo, study):
+for command in (identify, diagnose, loops, laws, next_test, batch, simulate, demo, study):
     cli.add_command(command)
 
 
