@@ -10,10 +10,10 @@ from .chunks import read_chunks
 from .diagnose import diagnose
 from .diagnosis import Diagnosis
 from .effects import Effect
-from .errors import ExtrapolationWarning, InputError, UnitAssumedWarning
+from .errors import ExtrapolationWarning, InputError, SkippedWarning, UnitAssumedWarning
 from .fits import exact, hybrid
 from .identify import Identification, identify
-from .load import from_dataframe, load
+from .load import from_dataframe, load, load_all
 from .measure import Fit
 from .model import Level, Model, simulate
 from .results import Parameter, StopReason, SwarmResult
@@ -38,6 +38,7 @@ __all__ = [
     "Problem",
     "Profile",
     "Recording",
+    "SkippedWarning",
     "StopReason",
     "SwarmResult",
     "Uncertainty",
@@ -53,6 +54,7 @@ __all__ = [
     "identify",
     "inertia_weight",
     "load",
+    "load_all",
     "mafsa",
     "models",
     "profile",

@@ -10,12 +10,15 @@ from .units import IDENTITY, ROLES, Conversion, conversion, find_conversion, mea
 ALIASES: Final[dict[str, str]] = {
     alias: role
     for role, aliases in {
-        "time": ("time", "t", "zeit"),
-        "displacement": ("displacement", "disp", "stroke", "position"),
-        "velocity": ("velocity", "vel"),
-        "force": ("force", "load", "kraft"),
-        "current": ("current", "strom"),
-        "temperature": ("temperature", "temp"),
+        "time": ("time", "t", "zeit", "running_time", "elapsed_time", "时间"),
+        "displacement": (
+            *("displacement", "disp", "stroke", "position", "axial_displacement", "axial_disp"),
+            *("weg", "verschiebung", "位移"),
+        ),
+        "velocity": ("velocity", "vel", "geschwindigkeit", "速度"),
+        "force": ("force", "load", "kraft", "axial_force", "力", "荷载", "载荷"),
+        "current": ("current", "strom", "电流"),
+        "temperature": ("temperature", "temp", "temperatur", "温度"),
         "simulated": ("simulated_force", "simulated"),
     }.items()
     for alias in aliases
@@ -31,7 +34,7 @@ CANONICAL: Final[dict[str, str]] = {
     "simulated": "simulated_force_N",
 }
 
-_BRACKETS: Final = re.compile(r"(.*?)\s*(?:\[([^\[\]]*)\]|\(([^()]*)\))\s*", re.DOTALL)
+_BRACKETS: Final = re.compile(r"(.*?)\s*(?:\[([^\[\]]*)\]|[(（]([^()（）]*)[)）])\s*", re.DOTALL)
 
 
 class Column(NamedTuple):
@@ -58,7 +61,8 @@ def find_columns(
     headers : sequence of str
         Column names, all different.
     map : mapping of str to str, optional
-        Role to ``column`` or ``column[unit]``; other roles are recognised by their header.
+        Role to ``column`` or ``column[unit]``; other roles are recognised by their header. A minus in front
+        turns the sign.
     require_force : bool
         Whether a missing force is an error, as a missing time or displacement is.
     fixed : collection of str
@@ -89,7 +93,7 @@ def find_columns(
             raise InputError(problem, file=file, column=column.header, wanted="one role for each column")
         taken[column.header] = role
     for header in headers:
-        match = None if header in taken else _recognised(header)
+        match = None if header in taken else recognise(header)
         if match is None or match[0] in taken.values() or match[0] in fixed:
             continue
         role, unit = match
@@ -103,11 +107,12 @@ def find_columns(
         found[role] = Column(header, role, known, unit is None)
     required = ["time", "displacement", *(["force"] if require_force else [])]
     for role in required:
-        if role not in found:
+        if role not in found and role not in fixed:
             raise InputError(
                 f"no column for {role} among {listed(list(headers))}",
                 file=file,
-                wanted=f"{CANONICAL[role]}, or another one named by map, as {role}=NAME[{ROLES[role].unit}]",
+                wanted=f"{CANONICAL[role]}, or another one named by map, as {role}=NAME[{ROLES[role].unit}]"
+                " (mre-core inspect guesses which)",
             )
     return {role: found[role] for role in ROLES if role in found}
 
@@ -143,8 +148,8 @@ def _split(header: str) -> tuple[str, str | None]:
 
 
 def _suffixes(header: str) -> list[tuple[str, str]]:
-    """Every split of a header in front of a word, longest ending first: ``vel``, ``m_s`` and so on."""
-    gaps = re.finditer(r"[_\s]+", header)
+    """Every split of a header in front of a word, longest ending first: ``vel``, ``m_s`` or ``F / kN``."""
+    gaps = re.finditer(r"\s*[/,]\s*|[_\s]+", header)
     return [("", header), *((header[: gap.start()], header[gap.end() :]) for gap in gaps)]
 
 
@@ -152,8 +157,19 @@ def _alias(name: str) -> str | None:
     return ALIASES.get(re.sub(r"\s+", "_", name.strip().lower()))
 
 
-def _recognised(header: str) -> tuple[str, str | None] | None:
-    """Role and unit of a header that is an alias with at most a unit behind it."""
+def recognise(header: str) -> tuple[str, str | None] | None:
+    """Read a header that is an alias with at most a unit behind it.
+
+    Parameters
+    ----------
+    header : str
+        Name of a column.
+
+    Returns
+    -------
+    (role, unit) or None
+        The unit is None where the header states none.
+    """
     name, unit = _split(header.strip())
     if role := _alias(name):
         # A lone letter claims no unit of another quantity: "T [degC]" is not a time.
@@ -166,13 +182,20 @@ def _recognised(header: str) -> tuple[str, str | None] | None:
 
 
 def _mapped(role: str, text: str, headers: Sequence[str], file: str | None) -> Column:
-    """Resolve ``column`` or ``column[unit]``; the whole text is tried as a column first."""
+    """Resolve ``column``, ``column[unit]`` or ``-column``; the whole text is tried as a column first."""
     if not isinstance(text, str) or not text.strip():
         problem = f"map gives {text!r} for {role}"
         raise InputError(problem, file=file, value=text, wanted="the name of a column")
     if text in headers:
         return _read_unit(role, text, file)
+    if text.startswith("-"):
+        column = _mapped(role, text[1:], headers, file)
+        factor, offset = column.conversion
+        return column._replace(conversion=Conversion(-factor, -offset))
     name, unit = _split(text) if text.rstrip().endswith("]") else (text, None)
+    without_units = [header for header in headers if _split(header)[0] == name]
+    if name not in headers and len(without_units) == 1:
+        name = without_units[0]
     if name in headers:
         if unit is None:
             return _read_unit(role, name, file)
