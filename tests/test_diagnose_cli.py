@@ -19,7 +19,10 @@ from rig import Cli, command, everything_in, force_of, rows_of, run_process
 from test_diagnose import check_contract
 from test_interrupts import LISTEN
 
-FILES = {"diagnosis.json", "base_model.json", "model.json", "residuals.csv", "report.html"}
+FILES = {
+    *("diagnosis.json", "base_model.json", "model.json", "residuals.csv", "report.html"),
+    "settings.toml",
+}
 
 
 @pytest.fixture(scope="module")

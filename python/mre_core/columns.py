@@ -140,14 +140,14 @@ def assumption(columns: Collection[Column], file: str | None = None) -> str | No
     return (f"{file}: " if file else "") + f"no unit in the header of {units}; to state it, {example}"
 
 
-def _split(header: str) -> tuple[str, str | None]:
+def split_unit(header: str) -> tuple[str, str | None]:
     """Split a header such as ``Force [kN]`` into name and unit."""
     if match := _BRACKETS.fullmatch(header):
         return match[1], (match[2] if match[2] is not None else match[3]).strip() or None
     return header, None
 
 
-def _suffixes(header: str) -> list[tuple[str, str]]:
+def suffixes(header: str) -> list[tuple[str, str]]:
     """Every split of a header in front of a word, longest ending first: ``vel``, ``m_s`` or ``F / kN``."""
     gaps = re.finditer(r"\s*[/,]\s*|[_\s]+", header)
     return [("", header), *((header[: gap.start()], header[gap.end() :]) for gap in gaps)]
@@ -170,12 +170,12 @@ def recognise(header: str) -> tuple[str, str | None] | None:
     (role, unit) or None
         The unit is None where the header states none.
     """
-    name, unit = _split(header.strip())
+    name, unit = split_unit(header.strip())
     if role := _alias(name):
         # A lone letter claims no unit of another quantity: "T [degC]" is not a time.
         foreign = len(name) == 1 and unit is not None and find_conversion(unit, role) is None
         return None if foreign else (role, unit)
-    for start, suffix in _suffixes(name) if unit is None else ():
+    for start, suffix in suffixes(name) if unit is None else ():
         if (role := _alias(start)) and find_conversion(suffix, role):
             return role, suffix
     return None
@@ -192,8 +192,8 @@ def _mapped(role: str, text: str, headers: Sequence[str], file: str | None) -> C
         column = _mapped(role, text[1:], headers, file)
         factor, offset = column.conversion
         return column._replace(conversion=Conversion(-factor, -offset))
-    name, unit = _split(text) if text.rstrip().endswith("]") else (text, None)
-    without_units = [header for header in headers if _split(header)[0] == name]
+    name, unit = split_unit(text) if text.rstrip().endswith("]") else (text, None)
+    without_units = [header for header in headers if split_unit(header)[0] == name]
     if name not in headers and len(without_units) == 1:
         name = without_units[0]
     if name in headers:
@@ -216,14 +216,14 @@ def _mapped(role: str, text: str, headers: Sequence[str], file: str | None) -> C
 
 def _read_unit(role: str, header: str, file: str | None) -> Column:
     """Take the unit of a mapped column from its header."""
-    name, unit = _split(header)
+    name, unit = split_unit(header)
     if unit is not None:
         return Column(header, role, conversion(unit, role, file=file, column=header), False)
-    for _, suffix in _suffixes(name):
+    for _, suffix in suffixes(name):
         if known := find_conversion(suffix, role):
             return Column(header, role, known, False)
     # A single letter is as likely the name of a sensor as a unit.
-    other = next((text for _, text in _suffixes(name) if len(text) > 1 and measured_by(text)), None)
+    other = next((text for _, text in suffixes(name) if len(text) > 1 and measured_by(text)), None)
     if other is not None:
         example = f"'{header}[{ROLES[role].unit}]' in the map if that is what it holds"
         raise InputError(

@@ -31,6 +31,7 @@ def demo(out: Path | None, seed: int, iterations: int, threads: int | None) -> N
 
     from ..output import Stage, staged
     from ..replica import CAMPAIGN, record
+    from .settings import write_settings
     from .show import console
 
     recordings = [record(condition, seed) for condition in CAMPAIGN]
@@ -38,7 +39,8 @@ def demo(out: Path | None, seed: int, iterations: int, threads: int | None) -> N
     with place as stage:
         results = _identify_all(recordings, seed, iterations, threads)
         _print(console(), results)
-        if isinstance(stage, Stage):
+        if isinstance(stage, Stage) and out is not None:
+            write_settings(stage, out)
             _write(stage, recordings, results)
 
 
@@ -48,7 +50,7 @@ def _identify_all(recordings: list[Any], seed: int, iterations: int, threads: in
     from threading import Event
 
     from ..identify import identify
-    from .show import progress
+    from .progress import progress
 
     stop = Event()
     jobs = [

@@ -16,6 +16,8 @@ from .arguments import spread
 from .demo import demo
 from .diagnose import diagnose
 from .identify import identify
+from .inspect import inspect
+from .schema_command import schema
 from .simulate import simulate
 
 
@@ -27,13 +29,14 @@ def cli() -> None:
     \b
     Examples:
       mre-core demo
+      mre-core inspect test.txt --write-config test.toml
       mre-core identify test.csv --model sinh --out result
       mre-core diagnose test.csv --base sinh --out result
       mre-core simulate result/model.json earthquake.csv --out predicted.csv
     """  # noqa: D301  # \b keeps the lines
 
 
-for command in (identify, diagnose, simulate, demo):
+for command in (inspect, identify, diagnose, simulate, demo, schema):
     cli.add_command(command)
 
 
