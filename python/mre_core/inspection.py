@@ -121,8 +121,11 @@ def inspect(
     known = dict(map or {})
     found = [
         _inspect(
-            *(EvenTable(table, options.rate) if options.rate is not None else table, file),
-            *(known, pattern, conditions),
+            EvenTable(table, options.rate) if options.rate is not None else table,
+            file,
+            known,
+            pattern,
+            conditions,
         )
         for file, table in opened
     ]

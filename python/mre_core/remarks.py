@@ -38,6 +38,10 @@ def remarks(found: "Inspection") -> list[str]:
             said.setdefault(text, []).append(table.name)
     lines += [f"{listed(names)}: {text}" for text, names in said.items()]
     usable = found.usable
+    currents = sorted({table.conditions["current"] for table in usable if "current" in table.conditions})
+    if found.name_pattern and currents:
+        levels = ", ".join(f"{current:g}" for current in currents)
+        lines.append(f"file names have the form {found.name_pattern}: current {levels} A")
     if not usable:
         return [*lines, "no recording yet: name the columns by --map ROLE='COLUMN[UNIT]'"]
     turned = [table for table in usable if table.turned]

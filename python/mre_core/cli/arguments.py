@@ -119,7 +119,7 @@ def load_all(
         name_pattern=name_pattern,
         read=pairs("--read", reading, ReadOptions._fields),
         require_force=require_force,
-        **pairs("--set", conditions),  # type: ignore[arg-type]  # roles: checked there
+        **pairs("--set", conditions),  # roles: checked there
     )
 
 

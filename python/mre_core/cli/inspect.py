@@ -80,12 +80,13 @@ def _print(found: "Inspection") -> None:
 
 
 def _print_columns(out: Any, table: "Inspected") -> None:
+    from rich.box import SIMPLE_HEAD
     from rich.markup import escape
     from rich.table import Table
 
     out.print(f"{table.name}: {'; '.join(table.notes)}", markup=False, soft_wrap=True)
     by_header = {guess.header: guess for guess in table.guesses}
-    columns = Table()
+    columns = Table(box=SIMPLE_HEAD, pad_edge=False)
     for title in ("column", "role", "why"):
         columns.add_column(title)
     for header in table.headers:
@@ -96,15 +97,16 @@ def _print_columns(out: Any, table: "Inspected") -> None:
 
 
 def _print_signals(out: Any, found: "Inspection") -> None:
+    from rich.box import SIMPLE_HEAD
     from rich.markup import escape
     from rich.table import Table
 
-    table = Table()
-    table.add_column("recording", no_wrap=True)
+    table = Table(box=SIMPLE_HEAD, padding=(0, 1), pad_edge=False)
+    table.add_column("recording")
     for title in ("samples", "rate\nHz", "cycles", "f\nHz", "stroke\nmm", "force\nN", "noise\nmm, N"):
-        table.add_column(title, justify="right", no_wrap=True)
+        table.add_column(title, justify="right")
     for title in ("energy\nN mm", "phase\n°"):
-        table.add_column(title, justify="right", no_wrap=True)
+        table.add_column(title, justify="right")
     for one in found.usable:
         s = one.signals
         if s is None:

@@ -48,7 +48,7 @@ def settings_model() -> type["BaseModel"]:
     tables: dict[str, Any] = {}
     for name, command in commands.items():
         # By alias, because pydantic keeps names such as json for itself.
-        fields = {
+        fields: dict[str, Any] = {
             f"{key}_": (_type(key, parameter), Field(None, alias=key, description=_help(parameter)))
             for key, parameter in keys_of(command).items()
         }

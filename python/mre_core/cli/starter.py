@@ -43,7 +43,11 @@ def write_starter(
     if path.exists():
         raise InputError("is there already", file=str(path), wanted="a new name, or that it is removed first")
     text = _text(path, found, recordings, read, conditions)
-    write_file(path, lambda temporary: temporary.write_text(text, encoding="utf-8") and None)
+
+    def write(temporary: Path) -> None:
+        temporary.write_text(text, encoding="utf-8")
+
+    write_file(path, write)
 
 
 def _text(
