@@ -10,7 +10,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 _EVEN: Final = 1e-3
-_FEWEST_CYCLES: Final = 0.9
+_FEWEST_CYCLES: Final = 1.5
+"""A push from one end to the other has two sides, and is no cycle."""
 
 
 @dataclass(frozen=True)

@@ -26,7 +26,11 @@ def demo(out: Path | None, seed: int, iterations: int, threads: int | None) -> N
     """Identify the paper's twelve tests with both models and all three swarms.
 
     The paper's recordings are not public: this is a simulated replica of its campaign.
-    """
+
+    \b
+    Example:
+      mre-core demo --iterations 300 --out demo
+    """  # noqa: D301  # \b keeps the lines
     from contextlib import nullcontext
 
     from ..output import Stage, staged
