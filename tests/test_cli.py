@@ -59,7 +59,9 @@ def test_identify_and_simulate_as_processes(tmp_path: Path, sinh_csv: Path) -> N
 
 def test_demo_as_a_process(tmp_path: Path) -> None:
     run = run_process("demo", "--iterations", "3", "--out", tmp_path / "demo")
-    assert (run.returncode, run.stderr) == (0, "")
+    assert run.returncode == 0
+    # A slow machine says how far it is.
+    assert all(line.startswith("mre-core: identifying: iteration ") for line in run.stderr.splitlines())
     assert "simulated replica" in run.stdout
     tests = [f"{current}A-1Hz-{amplitude}mm" for current in (0, 1, 2, 3) for amplitude in (2, 4, 8)]
     for test in tests:

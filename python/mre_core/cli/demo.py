@@ -76,6 +76,7 @@ def _identify_all(recordings: list[Any], seed: int, iterations: int, threads: in
         )
 
     found: Results = {}
+    evaluations = 0
     with (
         ThreadPoolExecutor(threads or os.cpu_count()) as pool,
         progress(len(jobs), quiet=False) as (_, on_progress),
@@ -84,7 +85,8 @@ def _identify_all(recordings: list[Any], seed: int, iterations: int, threads: in
         try:
             for future in as_completed(waiting):
                 found[waiting[future]] = future.result()
-                on_progress(len(found), future.result().result.nfev, future.result().result.fitness)
+                evaluations += future.result().result.nfev
+                on_progress(len(found), evaluations, future.result().result.fitness)
         except BaseException:
             stop.set()  # Ctrl-C reaches this thread only; the others ask here
             pool.shutdown(cancel_futures=True)

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 OnLevel = Callable[[int, int, float | None], None]
 OnProgress = Callable[[int, int, float], None]
 
-EVERY = 10.0
+EVERY = 30.0
 """Seconds between two lines; work that is shorter says nothing."""
 
 
