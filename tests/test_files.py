@@ -84,6 +84,23 @@ TEXTS: dict[str, Callable[[Recording], bytes]] = {
     "numbers in the preamble": lambda r: (
         "Rate;200\nLimits;-10;10\nArea;12;mm2\n" + text(r, "Zeit [s];Weg [mm];Kraft [N]", separator=";")
     ).encode(),
+    "times of day": lambda r: "\n".join(
+        ["Zeit;Weg [mm];Kraft [N]"]
+        + [f"10:31:{5 + t:06.3f};{x!r};{f!r}".replace(".", ",") for t, x, f in rows(r)]
+    ).encode(),
+    "dates over midnight": lambda r: "\n".join(
+        ["Time;Disp [mm];Force [N]"]
+        + [f"{'20.11.2026 ' if t < 0.1 else '21.11.2026 '}{_clock(t)};{x!r};{f!r}" for t, x, f in rows(r)]
+    ).encode(),
+    "marks between thousands": lambda r: "\n".join(
+        ["Time [s];Disp [mm];Force [mN]"] + [f"{t};{x};{1e3 * f:,.3f}" for t, x, f in rows(r)]
+    ).encode(),
+    "units in capitals": lambda r: text(r, "Time;Disp;Force\nSec;mm;KN", separator=";", scale=1e3).encode(),
+    "LabVIEW measurement": lambda r: (
+        "LabVIEW Measurement\t\nSeparator\tTab\n***End_of_Header***\t\n\t\nChannels\t2\t\t\n"
+        "Samples\t60\t60\t\nDelta_X\t0.005\t0.005\t\n***End_of_Header***\t\t\t\n"
+        + text(r, "Time [s]\tDisplacement [mm]\tForce [N]\tComment", separator="\t")
+    ).encode(),
     "a footer": lambda r: (text(r, "time_s,disp_mm,force_N") + "\nEnd of test\n").encode(),
     "blocks in which time goes on": lambda r: "".join(
         f"Segment {i}\nTime\tDisp\tForce\ns\tmm\tN\n"
@@ -92,6 +109,11 @@ TEXTS: dict[str, Callable[[Recording], bytes]] = {
         for i in range(3)
     ).encode(),
 }
+
+
+def _clock(t: float) -> str:
+    """Time of day that passes midnight after 0.1 s."""
+    return f"23:59:{59.9 + t:06.3f}" if t < 0.0999 else f"00:00:{t - 0.1:06.3f}"
 
 
 @pytest.mark.parametrize("case", TEXTS)
@@ -317,6 +339,76 @@ def test_a_broken_file_earns_one_line(tmp_path: Path, truth: Recording, case: st
             assert "\n" not in text
         else:  # half of a stream of segments is a whole stream
             assert len(found) <= len(truth)
+
+
+def test_a_time_of_day_that_is_none(tmp_path: Path, truth: Recording) -> None:
+    lines = TEXTS["times of day"](truth).decode().splitlines()
+    lines[9] = lines[9].replace("10:31", "late")
+    path = tmp_path / "a.txt"
+    path.write_text("\n".join(lines))
+    with pytest.raises(
+        InputError, match=r"line 10, column 'Zeit \[s\]': found 'late:05,04.', wanted a time of"
+    ):
+        mre_core.load(path)
+
+
+def test_clocks_of_other_formats(tmp_path: Path, truth: Recording) -> None:
+    import openpyxl
+    import pandas as pd
+
+    clock = pd.Timestamp("2026-11-21 10:31:05") + pd.to_timedelta(truth.time, unit="s")
+    frame = pd.DataFrame({"time": clock, "disp_mm": truth.displacement, "force_N": force_of(truth)})
+    frame.to_parquet(tmp_path / "a.parquet")
+    same(mre_core.load(tmp_path / "a.parquet"), truth)
+    book = openpyxl.Workbook()
+    sheet: Any = book.active
+    for row in [
+        list(frame.columns),
+        *([t.to_pydatetime(), x, f] for t, x, f in frame.itertuples(index=False)),
+    ]:
+        sheet.append(row)
+    book.save(tmp_path / "a.xlsx")
+    same(mre_core.load(tmp_path / "a.xlsx"), truth)
+
+
+@pytest.mark.parametrize("case", ["Excel", "MATLAB 5", "MATLAB 7.3", "Parquet", "HDF5", "TDMS"])
+def test_absurd_sizes_are_refused(
+    tmp_path: Path, truth: Recording, monkeypatch: pytest.MonkeyPatch, case: str
+) -> None:
+    from mre_core.files import limits
+
+    name, write, _ = FORMATS[case]
+    write(tmp_path / name, truth)
+    monkeypatch.setattr(limits, "MOST_VALUES", 100)
+    with pytest.raises(InputError, match=r"unpacks to \d+ values, wanted at most 1e\+02"):
+        mre_core.load(tmp_path / name)
+    monkeypatch.setattr(limits, "MOST_BYTES", 1000)
+    with pytest.raises(InputError, match=r"has 0\.0 GiB, wanted at most 0 GiB"):
+        mre_core.load(tmp_path / name)
+
+
+def test_a_compressed_matlab_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from mre_core.files import limits
+    from scipy.io import savemat
+
+    path = tmp_path / "a.mat"
+    savemat(path, {"t": np.arange(10**5), "x": np.zeros(10**5)}, do_compression=True)
+    assert path.stat().st_size < 3 * 10**5
+    monkeypatch.setattr(limits, "MOST_VALUES", 10**5)
+    with pytest.raises(InputError, match=r"unpacks to 2e\+05 values"):
+        mre_core.load(path)
+
+
+def test_a_zip_bomb_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    import zipfile
+
+    from mre_core.files import limits
+
+    with zipfile.ZipFile(tmp_path / "a.xlsx", "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("xl/worksheets/sheet1.xml", bytes(10**6))
+    monkeypatch.setattr(limits, "MOST_BYTES", 10**5)
+    with pytest.raises(InputError, match=r"a\.xlsx: unpacks to 0\.0 GiB"):
+        mre_core.load(tmp_path / "a.xlsx")
 
 
 LIBRARIES = {

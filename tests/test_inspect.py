@@ -91,11 +91,11 @@ def test_guesses_and_their_reasons() -> None:
     assert [guess.certain for guess in found.values()] == [True, False, False]
     by_unit = guess_roles({"t [s]": T, "Sensor A [mm]": x, "Sensor B [kN]": f})
     assert by_unit["displacement"].reason == "mm is a unit of displacement"
-    by_values = guess_roles({"column 1": T, "column 2": f, "column 3": x})
+    by_values = guess_roles({"column 1": T, "column 2": x, "column 3": f})
     assert {role: guess.header for role, guess in by_values.items()} == {
         "time": "column 1",
-        "displacement": "column 3",
-        "force": "column 2",
+        "displacement": "column 2",
+        "force": "column 3",
     }
     assert by_values["time"].text == "column 1[s]"
     assert "grows evenly" in by_values["time"].reason

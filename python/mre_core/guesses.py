@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 WORDS: Final[dict[str, tuple[str, ...]]] = {
-    "time": ("time", "zeit", "时间", "x_value"),
+    "time": ("time", "zeit", "timestamp", "datetime", "zeitstempel", "时间", "x_value"),
     "displacement": (
         *("displacement", "disp", "stroke", "position", "lvdt", "deflection", "extension", "crosshead"),
         *("weg", "verschiebung", "位移", "行程"),
@@ -108,7 +108,7 @@ def _contains(name: str, word: str) -> bool:
 
 
 def _by_values(columns: Mapping[str, "NDArray[np.float64] | None"], found: dict[str, Guess]) -> None:
-    """Take a column that grows evenly for time, and of two others the smoother one for displacement."""
+    """Take a column that grows evenly for time, and of two others the first one for displacement."""
     import numpy as np
 
     taken = {guess.header for guess in found.values()}
@@ -124,22 +124,15 @@ def _by_values(columns: Mapping[str, "NDArray[np.float64] | None"], found: dict[
     missing = [role for role in ("displacement", "force") if role not in found]
     if len(moving) != len(missing) or not missing or any(recognise(h) for h in moving):
         return
-    smooth = sorted(moving, key=lambda header: _roughness(moving[header]))
-    for role, header in zip(missing, smooth, strict=True):
+    for role, header in zip(missing, moving, strict=True):
         reason = "it is the only column left" if len(missing) == 1 else _REASONS[role]
         found[role] = Guess(header, role, None, f"{reason}; its unit is assumed", False)
 
 
 _REASONS: Final = {
-    "displacement": "it is the smoother one of the two that are left",
-    "force": "it is the rougher one of the two that are left",
+    "displacement": "it is the first of the two that are left",
+    "force": "it is the second of the two that are left",
 }
-
-
-def _roughness(values: "NDArray[np.float64]") -> float:
-    import numpy as np
-
-    return float(np.std(np.diff(values, n=2)) / np.ptp(values))
 
 
 _NAMED: Final = {"a": "current", "ma": "current", "mm": "amplitude", "hz": "frequency", "c": "temperature"}

@@ -70,6 +70,8 @@ def _about(table: "Inspected", map: Mapping[str, str]) -> Iterator[str]:
     if assumed:
         columns = ", ".join(f"'{guess.header}' as {guess.text.rpartition('[')[2][:-1]}" for guess in assumed)
         yield f"no unit is stated, so {columns} is assumed"
+    if signals.force_N is None:
+        yield "no force: name its column by --map force='COLUMN[UNIT]'"
     if not signals.even:
         yield "the steps of time differ: diagnose needs even sampling, identify does not"
     yield from _noise(signals)

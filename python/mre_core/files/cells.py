@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..errors import InputError
+from .clock import seconds_of_texts
 from .dialect import Dialect
 
 if TYPE_CHECKING:
@@ -54,6 +55,38 @@ def read_numbers(source: Cells, columns: Sequence[str]) -> dict[str, "NDArray[np
         plain = not any(len(line.split()) > most for line in body)
     values = _fast(source, columns, "\n".join(body)) if plain else None
     return _careful(source, columns) if values is None else values
+
+
+def read_clock(source: Cells, column: str) -> "NDArray[np.float64]":
+    """Read a column of times of day.
+
+    Parameters
+    ----------
+    source : Cells
+        File or a part of it.
+    column : str
+        Name of the column.
+
+    Returns
+    -------
+    (n,) ndarray
+        Seconds from the first one.
+
+    Raises
+    ------
+    InputError
+        A cell is no time of day.
+    """
+    import numpy as np
+
+    place = source.headers.index(column)
+    rows = [(line, cells[place].strip() if place < len(cells) else "") for line, cells in _rows(source)]
+    found = seconds_of_texts([text for _, text in rows])
+    if (wrong := np.flatnonzero(np.isnan(found))).size:
+        line, text = rows[int(wrong[0])]
+        wanted = "a time of day, as in the first row"
+        raise InputError(file=source.file, line=line, column=column, value=text, wanted=wanted)
+    return found
 
 
 def line_of(source: Cells, row: int) -> int:

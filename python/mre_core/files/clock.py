@@ -1,10 +1,57 @@
 """Times of day and dates, as seconds from the first one."""
 
-from typing import TYPE_CHECKING, Any
+import re
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, Final
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
+
+
+_CLOCK: Final = re.compile(
+    r"(?:(?P<date>\d{4}-\d\d-\d\d|\d{4}/\d\d?/\d\d?|\d\d?[./]\d\d?[./]\d{4})[T ]+)?"
+    r"(?P<hour>\d\d?):(?P<minute>\d\d)(?::(?P<second>\d\d(?:[.,]\d+)?))?(?: ?(?P<half>[AaPp])[Mm])?"
+)
+
+
+def is_clock(text: str) -> bool:
+    """Tell a time of day, with or without a date, from any other text."""
+    return _CLOCK.fullmatch(text) is not None
+
+
+def seconds_of_texts(texts: Sequence[str]) -> "NDArray[np.float64]":
+    """Convert times of day.
+
+    Parameters
+    ----------
+    texts : sequence of str
+        Such as ``10:31:05,123`` or ``21.11.2026 10:31:05.123``.
+
+    Returns
+    -------
+    (n,) ndarray
+        Seconds from the first one; NaN for what is no time of day.
+    """
+    import numpy as np
+    import pandas as pd
+
+    matches = [_CLOCK.fullmatch(text) for text in texts]
+    dates = {match["date"] for match in matches if match}
+    # A single date does not matter, and in what order its parts stand is not known.
+    days = {date: 0.0 for date in dates}
+    if len(dates) > 1:
+        known = {date: pd.Timestamp(pd.to_datetime(date, dayfirst="." in date)) for date in dates if date}
+        earliest = min(known.values())
+        days |= {date: float((day - earliest).days) for date, day in known.items()}
+    found = np.full(len(texts), np.nan)
+    for i, match in enumerate(matches):
+        if match:
+            second = float((match["second"] or "0").replace(",", "."))
+            hour = int(match["hour"]) % (12 if match["half"] else 24) + 12 * ((match["half"] or "a") in "pP")
+            found[i] = 86400 * days[match["date"]] + 3600 * hour + 60 * int(match["minute"]) + second
+    # Exact to the microsecond, where the file is.
+    return np.asarray(np.round(found - found[0], 9))
 
 
 def seconds(values: Any) -> "NDArray[np.float64] | None":

@@ -8,9 +8,13 @@ from typing import Final, NamedTuple
 
 from .options import SEPARATORS, ReadOptions
 
-POINT: Final = re.compile(r"\s*[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?\s*", re.ASCII)
-COMMA: Final = re.compile(r"\s*[+-]?(?:\d+,?\d*|,\d+)(?:[eE][+-]?\d+)?\s*", re.ASCII)
+# Marks between thousands count only with decimals behind them: 1,234 may be a decimal comma.
+_EXPONENT: Final = r"(?:[eE][+-]?\d+)?\s*"
+_POINT: Final = re.compile(r"\s*[+-]?(?:\d+\.?\d*|\.\d+|\d{1,3}(?:,\d{3})+\.\d+)" + _EXPONENT, re.ASCII)
+_COMMA: Final = re.compile(r"\s*[+-]?(?:\d+,?\d*|,\d+|\d{1,3}(?:\.\d{3})+,\d+)" + _EXPONENT, re.ASCII)
 _PIECE: Final = 100
+_BLANK: Final = 0.9
+"""Blanks cut nearly everything: any other separator goes before them."""
 # A header of words apart by single blanks: a bracket belongs to the word before it.
 _BLANKS: Final = re.compile(r"\s+(?![\[(])")
 _WIDE_BLANKS: Final = re.compile(r"\t+|\s{2,}")
@@ -25,11 +29,13 @@ class Dialect(NamedTuple):
 
     def is_number(self, cell: str) -> bool:
         """Tell a number from any other text."""
-        return (POINT if self.decimal == "." else COMMA).fullmatch(cell) is not None
+        return (_POINT if self.decimal == "." else _COMMA).fullmatch(cell) is not None
 
     def to_float(self, cell: str) -> float:
         """Convert a cell that is a number."""
-        return float(cell.replace(",", ".") if self.decimal == "," else cell)
+        if self.decimal == ",":
+            return float(cell.replace(".", "").replace(",", "."))
+        return float(cell.replace(",", ""))
 
     def cells(self, line: str) -> list[str]:
         """Cut a line; blanks around a cell are dropped.
@@ -124,4 +130,5 @@ def _score(dialect: Dialect, sample: Iterable[str]) -> float:
         numbers = sum(map(dialect.is_number, filled))
         if numbers >= 2 and 2 * numbers >= len(filled):
             scores[len(cells)] += numbers / len(filled)
-    return max(scores.values(), default=0.0)
+    best = max(scores.values(), default=0.0)
+    return best if dialect.separator else _BLANK * best

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 from ..errors import InputError
 from .arrays import Series, tables_of
@@ -11,6 +11,9 @@ from .limits import check_values
 from .matlab73 import series_73
 from .options import ReadOptions
 from .table import NoTableError, Table
+
+_COMPRESSED: Final = 15
+"""miCOMPRESSED of the format, version 5."""
 
 
 def read(path: Path, options: ReadOptions) -> list[Table]:
@@ -55,8 +58,8 @@ def _series(path: Path) -> tuple[list[Series], list[str]]:
     file = str(path)
     scipy_io = need("scipy.io", "mat", file=file)
     try:
+        check_values(_unpacked(path) // 8, file)
         shapes = scipy_io.whosmat(path)
-        check_values(sum(_size(shape) for _, shape, _ in shapes), file)
         content = scipy_io.loadmat(path, squeeze_me=True, struct_as_record=False)
     except InputError:
         raise
@@ -84,8 +87,20 @@ def _walk(folder: str, name: str, value: Any) -> Iterator[Series]:
         yield Series(folder, name, value)
 
 
-def _size(shape: tuple[int, ...]) -> int:
-    size = 1
-    for length in shape:
-        size *= length
-    return size
+def _unpacked(path: Path) -> int:
+    """Add up the bytes of all variables, which are said at the beginning of each, compressed or not."""
+    import struct
+    import zlib
+
+    total = 0
+    with path.open("rb") as opened:
+        order = {b"IM": "<", b"MI": ">"}.get(opened.read(128)[126:128])
+        while order and len(tag := opened.read(8)) == 8:
+            kind, size = struct.unpack(f"{order}II", tag)
+            following = opened.tell() + size
+            if kind == _COMPRESSED:
+                inside = zlib.decompressobj().decompress(opened.read(min(size, 1024)), 8)
+                size = struct.unpack(f"{order}II", inside)[1] if len(inside) == 8 else size
+            total += size
+            opened.seek(following)
+    return total

@@ -4,8 +4,10 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+from ..columns import split_unit
 from ..errors import InputError, listed
-from .cells import Cells, line_of, read_numbers
+from .cells import Cells, line_of, read_clock, read_numbers
+from .clock import is_clock
 from .dialect import Dialect, find_dialect
 from .encoding import decode
 from .layout import Block, Rows, find_block
@@ -25,12 +27,25 @@ class TextTable(Table):
     """A block of a text file."""
 
     def __init__(self, cells: Cells, *, name: str = "", notes: Sequence[str] = ()) -> None:
-        super().__init__(cells.file, cells.headers, name=name, notes=notes)
-        self._cells = cells
+        first = next((line for line in cells.body if line.strip()), "")
+        clocks = [
+            header
+            for header, cell in zip(cells.headers, cells.dialect.cells(first), strict=False)
+            if is_clock(cell)
+        ]
+        self._clocks = {f"{split_unit(header)[0]} [s]": header for header in clocks if header}
+        named = {header: shown for shown, header in self._clocks.items()}
+        told = [f"'{header}' holds times of day: seconds from the first" for header in named]
+        headers = [named.get(header, header) for header in cells.headers]
+        super().__init__(cells.file, headers, name=name, notes=[*notes, *told])
+        self._cells = cells._replace(headers=headers)
 
     def numbers(self, columns: Sequence[str]) -> dict[str, "NDArray[np.float64]"]:
         """Finite values by column."""
-        return read_numbers(self._cells, columns)
+        plain = [name for name in columns if name not in self._clocks]
+        clocks = [name for name in columns if name in self._clocks]
+        found = read_numbers(self._cells, plain) if plain else {}
+        return found | {name: read_clock(self._cells, name) for name in clocks}
 
     def place(self, row: int) -> dict[str, int]:
         """Line of the file."""
