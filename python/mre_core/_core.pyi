@@ -170,6 +170,7 @@ def diagnose_recordings(
     held: Sequence[tuple[float | None, Sequence[float]]] | None = None,
     given: Sequence[ArrayLike] | None = None,
     base_effects: Sequence[tuple[str, str, Sequence[float]]] = [],
+    without: Sequence[str] = [],
     threads: int | None = None,
 ) -> tuple[str, list[NDArray[np.float64]], list[NDArray[np.float64]]]: ...
 def classical(

@@ -128,3 +128,10 @@ def hidden_effects(raw: Raw) -> tuple[dict[str, Any], ...]:
         for detail in raw["absorbed"]
         if detail["id"] not in named
     )
+
+
+def unknown_of(raw: Raw) -> dict[str, Any] | None:
+    """What an unexplained mismatch depends on, in words too."""
+    if raw["unknown"] is None:
+        return None
+    return {"statement": words.unknown(raw["unknown"], raw["nearest"]), "nearest": raw["nearest"], **raw["unknown"]}

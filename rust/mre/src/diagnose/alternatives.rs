@@ -12,7 +12,7 @@ const APART: f64 = 10.0;
 pub(super) fn rivals(search: &Search, named: &Named, place: usize, data: Data) -> Vec<&'static str> {
     let without = search.drop(named, place);
     let id = named.assembly.effects()[place].about().effect;
-    let found = scores(&without.assembly, data, &without.fitted.unit, search.seed);
+    let found = scores(&without.assembly, data, &without.fitted.unit, search.settings);
     let price = (named.fitted.rows as f64).ln();
     let parameters = named.fitted.coefficients.len() + named.fitted.unit.len();
     let own = named.fitted.left + price * parameters as f64;

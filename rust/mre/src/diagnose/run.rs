@@ -7,11 +7,13 @@ use super::candidates::{Candidate, by_effect, fit, residuals};
 use super::intervals::{Estimates, estimates};
 use super::least_squares::{Data, Fitted, Point, refine};
 use super::locate::{Finding, locate};
-use super::missing::Mismatch;
+use super::missing::{Generic, Mismatch};
 use super::normal::Rows;
 use super::prove::{Proof, prove, splits};
 use super::screen::{Null, Score};
 use super::search::{Named, Search, rms};
+use super::settings::Settings;
+use super::unknown::{self, Unknown};
 use super::verdict::{Evidence, Verdict};
 use crate::assembly::{Assembly, Base, Campaign};
 use crate::recording::Recording;
@@ -43,6 +45,10 @@ pub struct Diagnosis<'a> {
     pub evidence: Evidence,
     /// The effects, by how much each improves the held-out fit.
     pub effects: Vec<Effect>,
+    /// What an unexplained mismatch depends on.
+    pub unknown: Option<Unknown>,
+    /// Ids of effects that came nearest to an unexplained mismatch, and are not trusted.
+    pub nearest: Vec<&'static str>,
     /// Effects that the recordings would hide.
     pub absorbed: Vec<Absorbed>,
     /// Where the base model misses.
@@ -70,8 +76,7 @@ pub fn run<'a>(
     campaign: &'a Campaign,
     base: &'a Base,
     given: &[Given],
-    false_alarm: f64,
-    seed: u64,
+    settings: &Settings,
 ) -> Diagnosis<'a> {
     let rows: Vec<Rows> = campaign.recordings().iter().map(|r| vec![r.scored()]).collect();
     let begun = begin(campaign, base, given, &rows);
@@ -82,22 +87,43 @@ pub fn run<'a>(
         Base::Held(_) | Base::Given(_) => vec![(0..recordings.len()).collect()],
     };
     let whole = splits(&recordings, &groups, false);
-    let search = Search { begun: &begun, rows: &rows, splits: &whole, false_alarm, seed };
+    let search = Search { begun: &begun, rows: &rows, splits: &whole, settings };
     let mut named = search.run();
     settle_reference(&mut named, &rows);
     let data = Data { noise: &named.noise, rows: &rows };
     let base_fit = refine(&begun.assembly, data, &begun.fitted.unit);
     let alone = null(&begun, data, &base_fit);
-    let places = alone.as_ref().map_or_else(Vec::new, |n| locate(n, false_alarm));
-    let mismatch =
-        |n: &Option<Null>| n.as_ref().map_or(Mismatch { p_value: 1.0, excess: 0.0 }, Null::mismatch);
-    let first = mismatch(&alone);
+    let places = alone.as_ref().map_or_else(Vec::new, |n| locate(n, settings.false_alarm));
+    let alone_generic = alone.as_ref().map(Null::generic);
+    let first = alone_generic.as_ref().map_or(Mismatch::NONE, Generic::mismatch);
     let beside = Null::new(&named.assembly, data, &named.fitted.unit);
-    let rest = mismatch(&beside);
-    let absorbed = absorbed(&named, campaign, false_alarm);
+    let beside_generic = beside.as_ref().map(Null::generic);
+    let rest = beside_generic.as_ref().map_or(Mismatch::NONE, Generic::mismatch);
+    let absorbed = absorbed(&named, campaign, settings.false_alarm);
     let explained = (base_fit.left - named.fitted.left).max(0.0);
-    let evidence = Evidence::new(first, rest, explained, &named, rms_change(&named, data), false_alarm);
+    let change = rms_change(&named, data);
+    let evidence = Evidence::new(first, rest, explained, &named, change, settings.false_alarm);
     let verdict = evidence.verdict(named.assembly.effects().len() - own);
+    let unexplained = match verdict {
+        Verdict::Unexplained => alone.as_ref().zip(alone_generic.as_ref()),
+        Verdict::PartlyExplained => beside.as_ref().zip(beside_generic.as_ref()),
+        Verdict::Adequate | Verdict::MissingPhysics => None,
+    };
+    let unknown = unexplained.map(|(null, generic)| unknown::describe(null, generic));
+    let noise_rms = rms(&match &named.next {
+        Some(next) => residuals(&next.assembly, data, &next.fitted),
+        None => residuals(&named.assembly, data, &named.fitted),
+    });
+    let mut nearest = Vec::new();
+    let noise = named.noise.clone();
+    let data = Data { noise: &noise, rows: &rows };
+    if verdict == Verdict::Unexplained {
+        // Names that leave so much are not to be trusted: the base stands alone, and they are only told.
+        nearest = named.assembly.effects()[own..].iter().map(|e| e.about().effect).collect();
+        named.assembly = begun.assembly.clone();
+        named.fitted = base_fit.clone();
+        named.p_values = Vec::new();
+    }
     let sharp = named.assembly.effects().iter().any(|e| e.in_one_recording());
     let judged = if sharp { splits(&recordings, &groups, true) } else { whole.clone() };
     let before = prove(&begun.assembly, &named.noise, &judged, &base_fit);
@@ -120,10 +146,6 @@ pub fn run<'a>(
         let point = Point::at(assembly, data, fitted.unit.clone());
         point.recordings.into_iter().map(|local| local.force).collect()
     };
-    let best = match &named.next {
-        Some(next) => residuals(&next.assembly, data, &next.fitted),
-        None => residuals(&named.assembly, data, &named.fitted),
-    };
     Diagnosis {
         verdict,
         evidence,
@@ -134,7 +156,9 @@ pub fn run<'a>(
         estimates: estimates(&named.assembly, data, &named.fitted.unit),
         before,
         after,
-        noise_rms: rms(&best),
+        noise_rms,
+        unknown,
+        nearest,
         base_force: force(&begun.assembly, &base_fit),
         final_force: force(&named.assembly, &named.fitted),
         base: Named {

@@ -6,6 +6,9 @@ use super::search::Named;
 
 /// A rest that carries more than this share of all that can be explained is more than an inexact form.
 const FORM: f64 = 0.1;
+/// A rest that carries more than this share says that the names are not to be trusted: effects that are not
+/// there, bent towards one that is in no catalogue, leave about so much.
+const WRONG: f64 = 0.25;
 
 /// The verdicts of `diagnosis.json`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -76,6 +79,7 @@ impl Evidence {
         match (effects, self.rest) {
             (0, false) => Verdict::Adequate,
             (0, true) => Verdict::Unexplained,
+            (_, true) if self.share > WRONG => Verdict::Unexplained,
             (_, true) if self.share > FORM => Verdict::PartlyExplained,
             _ => Verdict::MissingPhysics,
         }
