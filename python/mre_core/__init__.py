@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from .asktell import AskTell
     from .certificate import Certificate, certificate
     from .chunks import read_chunks
+    from .dataframe import from_dataframe
     from .diagnose import diagnose
     from .diagnosis import Diagnosis
     from .effects import Effect
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
     from .fits import exact, hybrid
     from .identify import Identification, identify
     from .inspection import Inspection, inspect
-    from .load import from_dataframe, load, load_all
+    from .load import load, load_all
     from .measure import Fit
     from .model import Level, Model, simulate
     from .results import Parameter, StopReason, SwarmResult
@@ -78,6 +79,7 @@ _HOMES = {
     "asktell": "AskTell",
     "certificate": "Certificate certificate",
     "chunks": "read_chunks",
+    "dataframe": "from_dataframe",
     "diagnose": "diagnose",
     "diagnosis": "Diagnosis",
     "effects": "Effect",
@@ -85,7 +87,7 @@ _HOMES = {
     "fits": "exact hybrid",
     "identify": "Identification identify",
     "inspection": "Inspection inspect",
-    "load": "from_dataframe load load_all",
+    "load": "load load_all",
     "measure": "Fit",
     "model": "Level Model simulate",
     "results": "Parameter StopReason SwarmResult",

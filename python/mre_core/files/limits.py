@@ -55,7 +55,7 @@ def check_file(path: Path) -> None:
         with path.open("rb"):
             pass
     except FileNotFoundError:
-        raise InputError("there is no such file", file=str(path)) from None
+        raise InputError(f"there is no such file{_nearest(path)}", file=str(path)) from None
     except OSError as error:
         raise _unreadable(path, error) from None
     if size > MOST_BYTES:
@@ -106,6 +106,18 @@ def check_archive(path: Path) -> None:
     if size > MOST_BYTES:
         wanted = f"at most {MOST_BYTES / 2**30:.0f} GiB"
         raise InputError(f"unpacks to {size / 2**30:.1f} GiB", file=str(path), value=size, wanted=wanted)
+
+
+def _nearest(path: Path) -> str:
+    """Name the file beside it that is called nearly so."""
+    from difflib import get_close_matches
+
+    try:
+        names = [other.name for other in path.parent.iterdir()]
+    except OSError:
+        return ""
+    near = get_close_matches(path.name, names, n=1, cutoff=0.8)
+    return f" (nearest: {near[0]})" if near else ""
 
 
 def _unreadable(path: Path, error: OSError) -> InputError:
