@@ -212,6 +212,12 @@ MODELS = {
         SIMULATE, ["a.csv: ", "no column for displacement"], {"a.csv": headed("time_s,x,force_N")}
     ),
     "simulate without out": Case(SIMULATE[:3], ["--out"]),
+    "simulate over a folder": Case(
+        [*SIMULATE[:2], ".", *SIMULATE[3:]], [".: is a folder", "one of the files"]
+    ),
+    "simulate over two recordings": Case(
+        SIMULATE, ["a.csv: holds 2 recordings: a#1, a#2"], {"a.csv": 2 * (instead(1, HEADER) + b"\n")}
+    ),
     "simulate a force": Case([*SIMULATE[:2], "model.json", *SIMULATE[3:]], ["model.json: "]),
 }
 

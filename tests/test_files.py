@@ -1,4 +1,4 @@
-"""Text as rigs write it: every way of writing gives the same recording. Folders, blocks, and what users say."""
+"""Text as rigs write it: every way of writing gives the same recording. Folders, blocks, what users say."""
 
 from collections.abc import Callable
 from pathlib import Path

@@ -49,6 +49,18 @@ def test_no_false_phase(tmp_path: Path, late_s: float, offset: bool) -> None:
     assert len(found) >= 600 - np.ceil(abs(late_s) * 200)
 
 
+def test_inspect_says_what_was_done(tmp_path: Path) -> None:
+    write(tmp_path / "a.tdms", 0.25)
+    (table,) = mre_core.inspect(tmp_path / "a.tdms").tables
+    assert table.notes == (
+        "TDMS waveforms",
+        "channel 'Displacement [mm]' starts at 0 s: shifted by 50 samples",
+        "channel 'Force [N]' starts at 0.25 s: shifted by 0 samples",
+    )
+    assert table.signals is not None
+    assert table.signals.phase_deg == pytest.approx(np.degrees(0.2), abs=0.2)
+
+
 def test_other_rate(tmp_path: Path) -> None:
     write(tmp_path / "a.tdms", 0.0, rate=50.0)
     found = mre_core.load(tmp_path / "a.tdms")

@@ -10,14 +10,26 @@ import click
 from .._core import Recording
 from ..errors import InputError
 from ..files import ReadOptions
+from ..load import load
 from ..load import load_all as load_campaign
 from ..units import ROLES
 from .settings import read_config
 
 F = TypeVar("F", bound=Callable[..., Any])
 
-WHOLE = click.IntRange(-(2**63), 2**63 - 1, clamp=False)
-"""Whole numbers that the core can take; their ranges are checked there."""
+
+class Whole(click.types.IntParamType):
+    """Whole numbers that the core can take; their ranges are checked there, and need no mention in help."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Convert a text."""
+        number = super().convert(value, param, ctx)
+        if not -(2**63) <= number < 2**63:
+            self.fail(f"{value} has too many digits, wanted a whole number", param, ctx)
+        return number
+
+
+WHOLE = Whole()
 
 _PAIRS = ("--map", "--set", "--read")
 
@@ -103,23 +115,39 @@ def pairs(option: str, texts: Iterable[str], keys: Collection[str] = ROLES) -> d
     return found
 
 
+def load_motion(
+    path: str,
+    mapping: Sequence[str],
+    conditions: Sequence[str],
+    name_pattern: str | None,
+    reading: Sequence[str],
+) -> Recording:
+    """Load the one recording over which a force is predicted; its own force is not read."""
+    return load(
+        path,
+        map=pairs("--map", mapping),
+        name_pattern=name_pattern,
+        read=pairs("--read", reading, ReadOptions._fields),
+        require_force=False,
+        **pairs("--set", conditions),
+    )
+
+
 def load_all(
     paths: Sequence[str],
     mapping: Sequence[str],
     conditions: Sequence[str],
     name_pattern: str | None,
     reading: Sequence[str] = (),
-    *,
-    require_force: bool = True,
 ) -> list[Recording]:
     """Load the recordings of a command."""
+    fixed: dict[str, Any] = pairs("--set", conditions)  # roles: checked there
     return load_campaign(
         paths,
         map=pairs("--map", mapping),
         name_pattern=name_pattern,
         read=pairs("--read", reading, ReadOptions._fields),
-        require_force=require_force,
-        **pairs("--set", conditions),  # roles: checked there
+        **fixed,
     )
 
 

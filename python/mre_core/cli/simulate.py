@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from .arguments import common_options, load_all
+from .arguments import common_options, load_motion
 
 
 @click.command()
@@ -34,7 +34,7 @@ def simulate(
     from ..model import simulate as run
     from ..output import write_file
 
-    (motion,) = load_all([recording], mapping, conditions, name_pattern, reading, require_force=False)
+    motion = load_motion(recording, mapping, conditions, name_pattern, reading)
     force = run(Model.load(model), motion)
 
     def write(path: Path) -> None:
