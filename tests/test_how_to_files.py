@@ -7,7 +7,7 @@ from pathlib import Path
 import mre_core
 import pytest
 from mre_core.cli.main import cli as group
-from mre_core.cli.schema import problem_in
+from mre_core.cli.settings_schema import problem_in
 from mre_core.files.readers import READERS
 from rig import Cli
 from test_inspect import raw

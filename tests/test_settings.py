@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from mre_core import Recording
 from mre_core.cli.main import cli as group
-from mre_core.cli.schema import NOT_SETTINGS, key_of, keys_of
+from mre_core.cli.settings_schema import NOT_SETTINGS, key_of, keys_of
 from rig import Cli, write_csv
 
 SMALL = ["--optimizer", "pso", "--fish", "8", "--iterations", "4", "--no-figures", "--quiet"]

@@ -17,7 +17,7 @@ from .demo import demo
 from .diagnose import diagnose
 from .identify import identify
 from .inspect import inspect
-from .schema_command import schema
+from .schema import schema
 from .simulate import simulate
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..errors import InputError
-from .schema import PAIRS, keys_of, problem_in, settings_tables
+from .settings_schema import PAIRS, keys_of, problem_in, settings_tables
 
 if TYPE_CHECKING:
     from ..output import Stage

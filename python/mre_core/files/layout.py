@@ -31,6 +31,10 @@ class Rows(NamedTuple):
         """At least one number."""
         return any(map(self.is_number, self.cells(i)))
 
+    def begins_with_number(self, i: int) -> bool:
+        """Tell a row of data, even a broken one, from a line of text."""
+        return self.is_data(i) or self.is_number(next(iter(self.cells(i)), ""))
+
     def is_content(self, i: int) -> bool:
         """Neither blank nor a comment."""
         cells = self.cells(i)

@@ -159,9 +159,10 @@ def _split(lines: list[str], rows: Rows, block: Block) -> list[Block]:
         stop = end
         if following is not None:
             stop = following
-            while stop > block.first + shift and not rows.is_data(stop - 1):
+            while stop > block.first + shift and not rows.begins_with_number(stop - 1):
                 stop -= 1
-        same = block.units is None or lines[block.units + shift].strip() == lines[block.units].strip()
+        units = lines[block.units] if block.units is not None else ""
+        same = not units or [units] == lines[(block.units or 0) + shift :][:1]
         first = block.first + shift if same else header + 1
         blocks.append(block._replace(header=header, first=first, stop=stop))
     return blocks
