@@ -46,7 +46,9 @@ def test_json_of_an_identification(cli: Cli, tmp_path: Path, sinh_csv: Path) -> 
     assert json.loads(out) == json.loads((tmp_path / "r" / "identification.json").read_text())
 
 
-@pytest.mark.parametrize("command", ["inspect", "identify", "diagnose", "simulate", "demo", "schema"])
+@pytest.mark.parametrize(
+    "command", ["inspect", "identify", "diagnose", "simulate", "next-test", "demo", "schema"]
+)
 def test_help_has_an_example(cli: Cli, command: str) -> None:
     status, out, err = cli(command, "--help")
     assert (status, err) == (0, "")

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from mre_core import Recording
 from mre_core.cli.main import cli as group
-from mre_core.cli.settings_schema import NOT_SETTINGS, key_of, keys_of
+from mre_core.cli.settings_schema import NOT_SETTINGS, key_of, keys_of, table_of
 from rig import Cli, write_csv
 
 SMALL = ["--optimizer", "pso", "--fish", "8", "--iterations", "4", "--no-figures", "--quiet"]
@@ -25,7 +25,8 @@ def test_the_schema_covers_every_option(cli: Cli) -> None:
     assert (status, err) == (0, "")
     schema = json.loads(out)
     assert schema["additionalProperties"] is False
-    for name, command in group.commands.items():
+    for command in group.commands.values():
+        name = table_of(command)
         keys = {key_of(parameter) for parameter in command.params} - NOT_SETTINGS
         if not keys:
             continue
@@ -54,6 +55,15 @@ def test_a_run_is_repeated(cli: Cli, tmp_path: Path, sinh_csv: Path) -> None:
     (first / "model.json").unlink()
     assert cli("identify", "--config", first / "settings.toml") == (0, "", "")
     assert (again / "model.json").read_bytes() == (first / "model.json").read_bytes()
+
+
+def test_other_commands_take_settings(cli: Cli, tmp_path: Path) -> None:
+    status, _, err = cli("demo", "--config", toml(tmp_path, "[demo]\niterations = 0"))
+    assert (status, err) == (2, "mre-core: max_iterations is 0: a whole number from 1 to 10000000\n")
+    config = toml(tmp_path, "[next-test]\nfolder = 'a'\nout = 'c.csv'")
+    status, _, err = cli("next-test", "--config", config)
+    assert status == 2
+    assert str(tmp_path / "a") in err
 
 
 def test_tables_of_commands_and_paths(cli: Cli, tmp_path: Path, sinh_4mm: Recording) -> None:

@@ -173,6 +173,16 @@ def diagnose_recordings(
     without: Sequence[str] = [],
     threads: int | None = None,
 ) -> tuple[str, list[NDArray[np.float64]], list[NDArray[np.float64]]]: ...
+def excitation(
+    kind: str,
+    *,
+    stroke: float,
+    speed: float,
+    highest: float,
+    duration: float,
+    rate: float,
+    current: tuple[float, float] | None = None,
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64] | None]: ...
 def classical(
     kx: float, kw: float, rho: float, sigma: float, n: float
 ) -> tuple[float, float | None, float, float, float]: ...

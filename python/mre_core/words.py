@@ -125,6 +125,24 @@ def unknown(found: Mapping[str, Any], nearest: Sequence[str]) -> str:
     )
 
 
+EXCITATIONS = {
+    "slow_sine": "a slow sine of {amplitude_mm:.3g} mm at {frequency_hz:.3g} Hz",
+    "fast_sine": "a fast sine of {amplitude_mm:.3g} mm at {frequency_hz:.3g} Hz",
+    "rising_and_falling_amplitudes": "sines of {frequency_hz:.3g} Hz with amplitudes that rise to"
+    " {amplitude_mm:.3g} mm and fall again, with rests",
+    "sweep": "a sweep up to {frequency_hz:.3g} Hz",
+    "hold": "a step to {amplitude_mm:.3g} mm, held",
+    "multisine": "an odd random-phase multisine up to {frequency_hz:.3g} Hz",
+    "current_steps": "a sine of {amplitude_mm:.3g} mm at {frequency_hz:.3g} Hz under steps of the current",
+}
+
+
+def next_test(best: Mapping[str, Any], separates: Sequence[str], limits: Mapping[str, Any]) -> str:
+    """Say which test would resolve what is in doubt."""
+    signal = EXCITATIONS[best["excitation"]].format(**best)
+    return f"{signal}, {limits['duration_s']:.3g} s long, is expected to show or to rule out {listed(separates)}"
+
+
 def interval(low: float | None, high: float | None) -> str:
     """Say an interval, of which the recordings may not determine an end."""
     if low is None and high is None:

@@ -51,6 +51,19 @@ def spread(arguments: Sequence[str]) -> list[str]:
     return out
 
 
+def config_option(command: F) -> F:
+    """Option of every command that has settings."""
+    return click.option(
+        "--config",
+        type=click.Path(path_type=Path),
+        is_eager=True,
+        expose_value=False,
+        callback=read_config,
+        metavar="F.toml",
+        help="Options from a TOML file; those given here win.",
+    )(command)
+
+
 def common_options(command: F) -> F:
     """Options of every command that reads recordings."""
     options = [
@@ -80,16 +93,8 @@ def common_options(command: F) -> F:
             metavar="KEY=VALUE",
             help=f"How to read the files: {', '.join(ReadOptions._fields)}.",
         ),
-        click.option(
-            "--config",
-            type=click.Path(path_type=Path),
-            is_eager=True,
-            expose_value=False,
-            callback=read_config,
-            metavar="F.toml",
-            help="Options from a TOML file; those given here win.",
-        ),
     ]
+    command = config_option(command)
     for option in reversed(options):
         command = option(command)
     return command

@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from .arguments import WHOLE
+from .arguments import WHOLE, config_option
 
 _MODELS = ("sinh", "bouc_wen")
 _OPTIMIZERS = ("mafsa", "afsa", "pso")
@@ -22,6 +22,7 @@ Results = dict[tuple[str, str, str], Any]
     "--iterations", type=WHOLE, default=100, show_default=True, help="Of each swarm; the paper has 300."
 )
 @click.option("--threads", type=WHOLE, help="Threads; all cores by default.")
+@config_option
 def demo(out: Path | None, seed: int, iterations: int, threads: int | None) -> None:
     """Identify the paper's twelve tests with both models and all three swarms.
 

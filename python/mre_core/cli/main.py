@@ -17,6 +17,7 @@ from .demo import demo
 from .diagnose import diagnose
 from .identify import identify
 from .inspect import inspect
+from .next_test import next_test
 from .schema import schema
 from .simulate import simulate
 
@@ -36,7 +37,7 @@ def cli() -> None:
     """  # noqa: D301  # \b keeps the lines
 
 
-for command in (inspect, identify, diagnose, simulate, demo, schema):
+for command in (inspect, identify, diagnose, next_test, simulate, demo, schema):
     cli.add_command(command)
 
 

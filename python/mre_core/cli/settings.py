@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..errors import InputError
-from .settings_schema import PAIRS, keys_of, problem_in, settings_tables
+from .settings_schema import PAIRS, commands, keys_of, problem_in, table_of
 
 if TYPE_CHECKING:
     from ..output import Stage
@@ -33,8 +33,8 @@ def read_config(context: click.Context, _: click.Parameter, value: Path | None) 
     content = _underscored(content)
     if problem := problem_in(content):
         raise InputError(problem[0], file=file, wanted=problem[1])
-    given = {key: setting for key, setting in content.items() if key not in settings_tables()}
-    given |= content.get(str(context.command.name), {})
+    given = {key: setting for key, setting in content.items() if key not in commands()}
+    given |= content.get(table_of(context.command), {})
     keys = keys_of(context.command)
     defaults = {
         str(keys[key].name): _value(key, setting, value.parent)
@@ -78,7 +78,7 @@ def write_settings(stage: "Stage", folder: Path, **resolved: object) -> None:
     for key, value in sorted(used.items(), key=lambda item: item[0] in PAIRS):
         place = document if key in _SHARED else own
         place[key] = _written(key, value, folder)
-    document[command] = own
+    document[table_of(context.command)] = own
     stage.path(NAME).write_text(tomlkit.dumps(document), encoding="utf-8")
 
 
@@ -100,7 +100,9 @@ def _value(key: str, setting: Any, folder: Path) -> Any:
 
 def _is_path(key: str, setting: object) -> bool:
     """Tell a file from anything else; a model may be a name."""
-    return key in ("out", "recording") or (key in ("model", "base") and str(setting).endswith(".json"))
+    return key in ("out", "recording", "folder") or (
+        key in ("model", "base") and str(setting).endswith(".json")
+    )
 
 
 def _rebased(text: str, folder: Path) -> str:

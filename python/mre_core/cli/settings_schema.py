@@ -20,6 +20,11 @@ def key_of(parameter: click.Parameter) -> str:
     return (long[0].removeprefix("--") if long else str(parameter.name)).replace("-", "_")
 
 
+def table_of(command: click.Command) -> str:
+    """Name of the table of a command, such as ``next_test``."""
+    return str(command.name).replace("-", "_")
+
+
 def keys_of(command: click.Command) -> dict[str, click.Parameter]:
     """Options and arguments of a command by their key."""
     keys = {key_of(parameter): parameter for parameter in command.params}
@@ -38,22 +43,17 @@ def settings_model() -> type["BaseModel"]:
     """
     from pydantic import ConfigDict, Field, create_model
 
-    from .main import cli
-
     strict = ConfigDict(extra="forbid", strict=True)
-    commands: Mapping[str, click.Command] = {
-        name: command for name, command in cli.commands.items() if keys_of(command)
-    }
     tops: dict[str, Any] = {}
     tables: dict[str, Any] = {}
-    for name, command in commands.items():
+    for name, command in commands().items():
         # By alias, because pydantic keeps names such as json for itself.
         fields: dict[str, Any] = {
             f"{key}_": (_type(key, parameter), Field(None, alias=key, description=_help(parameter)))
             for key, parameter in keys_of(command).items()
         }
         tops = fields | tops
-        title = f"Options of mre-core {name}"
+        title = f"Options of mre-core {command.name}"
         table = create_model(f"{name}_settings", __config__=ConfigDict(**strict, title=title), **fields)
         about = command.get_short_help_str(100)
         tables[f"{name}_table"] = (table | None, Field(None, alias=name, description=about))
@@ -93,24 +93,22 @@ def problem_in(content: Mapping[str, Any]) -> tuple[str, str] | None:
             hint = f" (nearest: {near[0]})" if near else ""
             table = f" in [{place[0]}]" if len(place) > 1 else ""
             return f"unknown key '{place[-1]}'{table}{hint}", ", ".join(sorted(known))
-        key = next(part for part in place if part not in settings_tables())
-        table = f"[{place[0]}] " if place[0] in settings_tables() else ""
+        key = next(part for part in place if part not in commands())
+        table = f"[{place[0]}] " if place[0] in commands() else ""
         return f"{table}--{key.replace('_', '-')} is {first['input']!r}", _wanted(first["msg"])
     return None
 
 
-def settings_tables() -> Sequence[str]:
-    """Names of the tables of a settings file that belong to a command."""
+def commands() -> dict[str, click.Command]:
+    """Commands that have settings, by the name of their table."""
     from .main import cli
 
-    return [name for name, command in cli.commands.items() if keys_of(command)]
+    return {table_of(command): command for command in cli.commands.values() if keys_of(command)}
 
 
 def _known(place: Sequence[str]) -> list[str]:
-    from .main import cli
-
     if place:
-        return list(keys_of(cli.commands[place[0]]))
+        return list(keys_of(commands()[place[0]]))
     return [str(field.alias) for field in settings_model().model_fields.values()]
 
 

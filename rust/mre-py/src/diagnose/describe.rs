@@ -1,7 +1,7 @@
 //! A diagnosis as JSON.
 
 use mre::assembly::{Assembly, Base};
-use mre::diagnose::{self, Diagnosis, Estimate, Estimates, On, Place, Proof, Unknown};
+use mre::diagnose::{self, Diagnosis, Estimate, Estimates, NextTest, On, Place, Proof, Prospect, Unknown};
 use mre::effect::Effect;
 use serde_json::{Value, json};
 
@@ -31,6 +31,7 @@ pub(super) fn describe(found: &Diagnosis, base: &Base, own: usize) -> Value {
         "absorbed": found.absorbed.iter().map(absorbed).collect::<Vec<_>>(),
         "unknown": found.unknown.as_ref().map(unknown),
         "nearest": found.nearest,
+        "next_test": found.next_test.as_ref().map(next_test),
         "sizes": sizes(found),
     })
 }
@@ -63,6 +64,25 @@ fn unknown(u: &Unknown) -> Value {
     json!({
         "depends_on": depends_on, "odd": u.odd, "dissipative": u.dissipative, "rms_N": u.rms,
         "map": {"x_mm": u.map.displacement, "v_mm_s": u.map.velocity, "force_N": u.map.force},
+    })
+}
+
+fn next_test(found: &NextTest) -> Value {
+    let prospect = |p: &Prospect| {
+        let chances: serde_json::Map<String, Value> =
+            p.chances.iter().map(|(id, chance)| ((*id).to_owned(), json!(chance))).collect();
+        json!({
+            "excitation": p.kind.id(), "frequency_hz": p.frequency, "amplitude_mm": p.amplitude,
+            "chances": chances,
+        })
+    };
+    let l = &found.limits;
+    json!({
+        "prospects": found.prospects.iter().map(prospect).collect::<Vec<_>>(),
+        "limits": {
+            "stroke_mm": l.stroke, "speed_mm_s": l.speed, "highest_hz": l.highest, "duration_s": l.duration,
+            "rate_hz": l.rate, "current_A": l.current,
+        },
     })
 }
 

@@ -3,8 +3,8 @@
 mod describe;
 
 use mre::assembly::{Base, Campaign};
-use mre::diagnose::{self, Settings};
-use mre::error::Result;
+use mre::diagnose::{self, KINDS, Limits, Settings};
+use mre::error::{Error, Result};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
@@ -60,3 +60,30 @@ pub(crate) fn diagnose_recordings<'py>(
 }
 
 type Histories = Vec<Vec<f64>>;
+
+/// Command signal of an excitation: `(time in s, displacement in mm, current in A or None)`.
+#[pyfunction]
+#[pyo3(signature = (kind, *, stroke, speed, highest, duration, rate, current=None))]
+#[allow(clippy::type_complexity, clippy::too_many_arguments)]
+pub(crate) fn excitation<'py>(
+    py: Python<'py>,
+    kind: &str,
+    stroke: f64,
+    speed: f64,
+    highest: f64,
+    duration: f64,
+    rate: f64,
+    current: Option<(f64, f64)>,
+) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, Option<Bound<'py, PyArray1<f64>>>)> {
+    let known = KINDS.iter().find(|k| k.id() == kind);
+    let limits = Limits { stroke, speed, highest, duration, rate, current };
+    let signal = known.and_then(|k| k.signal(&limits)).ok_or_else(|| {
+        let ids: Vec<&str> = KINDS.iter().map(|k| k.id()).collect();
+        to_python(Error::setting("excitation", format!("'{kind}'"), format!("one of {}", ids.join(", "))))
+    })?;
+    Ok((
+        PyArray1::from_vec(py, signal.time),
+        PyArray1::from_vec(py, signal.displacement),
+        signal.current.map(|current| PyArray1::from_vec(py, current)),
+    ))
+}

@@ -48,6 +48,9 @@ impl Projected {
 
     /// What the columns take off together.
     fn mismatch(self) -> Mismatch {
+        if self.right.is_empty() {
+            return Mismatch::NONE;
+        }
         let eigen = self.gram.symmetric_eigen();
         let (mut gain, mut freedom) = (0.0, 0);
         for (value, vector) in eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()) {

@@ -60,10 +60,10 @@ pub(super) struct Search<'s, 'a> {
 }
 
 impl<'a> Search<'_, 'a> {
-    /// Name the effects.
-    pub(super) fn run(&self) -> Named<'a> {
+    /// Name the effects: the model found, and that of its first effect alone where there are more.
+    pub(super) fn run(&self) -> (Named<'a>, Option<Named<'a>>) {
         let mut here = self.look(self.begun.assembly.clone(), &self.begun.fitted.unit, &self.begun.noise);
-        let mut removed_by_first = None;
+        let (mut first, mut removed_by_first) = (None, None);
         while self.found(&here) < MOST {
             let Some((p_value, next)) = self.significant(&here) else { break };
             let mut wider = self.look(next.assembly.clone(), &next.fitted.unit, &here.noise);
@@ -74,6 +74,7 @@ impl<'a> Search<'_, 'a> {
                     wider = self.best_first(&here, wider, &second);
                 }
                 removed_by_first = Some(self.improvement(&here, &wider).0);
+                first = Some(wider.clone());
             } else {
                 wider = self.best_law(wider);
                 let (removed, noise) = self.improvement(&here, &wider);
@@ -84,7 +85,9 @@ impl<'a> Search<'_, 'a> {
             }
             here = wider;
         }
-        self.without_the_needless(here)
+        let named = self.without_the_needless(here);
+        let more = self.found(&named) > 1;
+        (named, first.filter(|_| more))
     }
 
     /// Number of effects that belong to the base.

@@ -3,7 +3,6 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::features::On;
-use super::missing::Generic;
 use super::screen::Null;
 use crate::effect::Scene;
 
@@ -54,7 +53,8 @@ pub struct Unknown {
 }
 
 /// Describe what is left beside a fitted model.
-pub(super) fn describe(null: &Null, generic: &Generic) -> Unknown {
+pub(super) fn describe(null: &Null) -> Unknown {
+    let generic = null.generic();
     let all = generic.mismatch().excess.max(f64::MIN_POSITIVE);
     let mut depends_on: Vec<Dependence> = generic
         .things()
