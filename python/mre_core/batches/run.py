@@ -32,6 +32,7 @@ def batch(
     map: Mapping[str, str] | None = None,
     conditions: Mapping[str, float | str] | None = None,
     name_pattern: str | None = None,
+    read: Mapping[str, object] | None = None,
     cut: tuple[float | None, float | None] | None = None,
     exclude: Sequence[str] = (),
     bootstrap: int | None = None,
@@ -62,7 +63,7 @@ def batch(
         For every item. Drawn and kept where not given.
     seeds : sequence of int, optional
         Several seeds in place of one: every item is worked on with each.
-    map, conditions, name_pattern
+    map, conditions, name_pattern, read
         How files are read: see `load`.
     cut, exclude
         Start and stop in s, and what `Recording.exclude` takes.
@@ -101,7 +102,8 @@ def batch(
     from .ledger import Ledger
     from .settings import Reading, Settings
 
-    reading = Reading(dict(map or {}), dict(conditions or {}), name_pattern, cut, tuple(exclude))
+    of_file = (dict(map or {}), dict(conditions or {}), name_pattern)
+    reading = Reading(*of_file, cut, tuple(exclude), dict(read or {}))
     settings = Settings.of(model, base, reading, options, bootstrap)
     _check(seed, seeds, budget, workers, threads)
     items = find_items(folder, Path(out))

@@ -32,11 +32,12 @@ class Reading:
     cut: tuple[float | None, float | None] | None = None
     """Start and stop in s."""
     exclude: tuple[str, ...] = ()
+    read: Mapping[str, object] = field(default_factory=dict)
 
     def load(self, path: Path) -> Recording:
         """Read one file."""
         conditions: dict[str, Any] = dict(self.conditions)
-        found = load(path, map=self.map, name_pattern=self.name_pattern, **conditions)
+        found = load(path, map=self.map, name_pattern=self.name_pattern, read=self.read or None, **conditions)
         if self.cut is not None:
             found = found.cut(*self.cut)
         return found.exclude(*self.exclude) if self.exclude else found

@@ -61,6 +61,7 @@ def batch(
     mapping: tuple[str, ...],
     conditions: tuple[str, ...],
     name_pattern: str | None,
+    reading: tuple[str, ...],
     **options: Any,
 ) -> int:
     """Identify or diagnose every recording (CSV file) and every campaign (sub-folder) of DIR.
@@ -75,8 +76,9 @@ def batch(
       mre-core batch recordings --model bouc_wen --cluster tcp://10.0.0.1:8786 --out result
     """  # noqa: D301  # \b keeps the lines
     from ..batches import batch as run
+    from ..files import ReadOptions
     from ..output import staged
-    from .show import counter
+    from .progress import counter
 
     options["n_particles" if options["optimizer"] == "pso" else "n_fish"] = fish
     options |= {"max_iterations": iterations, "fixed": fixed or None}
@@ -88,6 +90,7 @@ def batch(
             map=pairs("--map", mapping),
             conditions=pairs("--set", conditions),
             name_pattern=name_pattern,
+            read=pairs("--read", reading, ReadOptions._fields),
             cut=None if cut is None else read_interval(cut),
             exclude=() if exclude is None else tuple(part.strip() for part in exclude.split(",")),
             bounds=read_bounds(bounds) or None,

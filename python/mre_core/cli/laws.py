@@ -63,6 +63,7 @@ def laws(
     mapping: tuple[str, ...],
     conditions: tuple[str, ...],
     name_pattern: str | None,
+    reading: tuple[str, ...],
     **options: Any,
 ) -> int:
     """Fit RECORDINGS (CSV files) at several currents together, with laws of the parameters over the current.
@@ -80,7 +81,7 @@ def laws(
     from ..current_laws.plots import plot_laws
     from ..measure import measure_fit
     from ..output import Stage, staged
-    from .show import spinner
+    from .progress import spinner
 
     interval = None if cut is None else read_interval(cut)
     parts = () if exclude is None else tuple(part.strip() for part in exclude.split(","))
@@ -88,7 +89,7 @@ def laws(
 
     def read() -> "Iterator[Recording]":
         for path in recordings:  # one at a time: a campaign need not fit into memory
-            (found,) = load_all([path], mapping, conditions, name_pattern)
+            (found,) = load_all([path], mapping, conditions, name_pattern, reading)
             found = found if interval is None else found.cut(*interval)
             found = found.exclude(*parts) if parts else found
             if _is_at(found, over, predict):

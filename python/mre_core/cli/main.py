@@ -17,9 +17,11 @@ from .batch import batch
 from .demo import demo
 from .diagnose import diagnose
 from .identify import identify
+from .inspect import inspect
 from .laws import laws
 from .loops import loops
 from .next_test import next_test
+from .schema import schema
 from .simulate import simulate
 from .study import study
 
@@ -32,6 +34,7 @@ def cli() -> None:
     \b
     Examples:
       mre-core demo
+      mre-core inspect test.txt --write-config test.toml
       mre-core identify test.csv --model sinh --out result
       mre-core diagnose test.csv --base sinh --out result
       mre-core loops test.csv --model result/model.json --out loops
@@ -41,7 +44,8 @@ def cli() -> None:
     """  # noqa: D301  # \b keeps the lines
 
 
-for command in (identify, diagnose, loops, laws, next_test, batch, simulate, demo, study):
+COMMANDS = (inspect, identify, diagnose, loops, laws, next_test, batch, simulate, demo, study, schema)
+for command in COMMANDS:
     cli.add_command(command)
 
 

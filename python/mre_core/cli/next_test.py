@@ -4,6 +4,8 @@ from pathlib import Path
 
 import click
 
+from .arguments import config_option
+
 
 @click.command("next-test")
 @click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
@@ -20,6 +22,7 @@ import click
 @click.option("--duration", type=float, help="Duration, s.")
 @click.option("--rate", type=float, help="Samples a second.")
 @click.option("--quiet", is_flag=True, help="Print nothing.")
+@config_option
 def next_test(folder: Path, out: Path, quiet: bool, **limits: float | None) -> None:
     """Write the command signal of the test that the diagnosis in DIR proposes.
 

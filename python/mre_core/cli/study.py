@@ -37,6 +37,7 @@ def study(
     mapping: tuple[str, ...],
     conditions: tuple[str, ...],
     name_pattern: str | None,
+    reading: tuple[str, ...],
 ) -> None:
     """Repeat section 4 of the paper: every figure and table, and which of its claims survive.
 
@@ -59,10 +60,11 @@ def study(
         "--map": mapping,
         "--set": conditions,
         "--name-pattern": name_pattern,
+        "--read": reading,
     }
     if not recordings and (given := [name for name, value in of_recordings.items() if value]):
         raise InputError(f"{given[0]} is given without recordings", wanted="--recordings FILE... beside it")
-    loaded = load_all(recordings, mapping, conditions, name_pattern)
+    loaded = load_all(recordings, mapping, conditions, name_pattern, reading) if recordings else []
     if exclude is not None:
         parts = [part.strip() for part in exclude.split(",")]
         loaded = [recording.exclude(*parts) for recording in loaded]
