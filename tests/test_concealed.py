@@ -5,14 +5,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from concealed import BASES, effects, laws_of, make_campaign
-from concealed.bench import Bench, rms
-from concealed.campaign import OWN_EXCITATION
-from concealed.devices import drawn
-from concealed.law import drawn_law
-from concealed.noise import KINDS, noisy
-from concealed.programmes import PROGRAMMES, campaign_of
-from concealed.write import truth, write_campaign
+from mre_core.concealed import BASES, effects, laws_of, make_campaign
+from mre_core.concealed.bench import Bench, rms
+from mre_core.concealed.campaign import OWN_EXCITATION
+from mre_core.concealed.devices import drawn
+from mre_core.concealed.law import drawn_law
+from mre_core.concealed.noise import KINDS, noisy
+from mre_core.concealed.programmes import PROGRAMMES, campaign_of
+from mre_core.concealed.write import truth, write_campaign
 
 DISSIPATIVE = [
     "coulomb_friction",

@@ -7,7 +7,7 @@ cases; these seeds are neither tuned on nor judged by there.
 import mre_core
 import numpy as np
 import pytest
-from concealed import make_campaign
+from mre_core.concealed import make_campaign
 
 SEED = 500
 CASES = [
