@@ -17,6 +17,7 @@ from .demo import demo
 from .diagnose import diagnose
 from .identify import identify
 from .simulate import simulate
+from .trial import trial
 
 
 @click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
@@ -33,7 +34,7 @@ def cli() -> None:
     """  # noqa: D301  # \b keeps the lines
 
 
-for command in (identify, diagnose, simulate, demo):
+for command in (identify, diagnose, simulate, demo, trial):
     cli.add_command(command)
 
 

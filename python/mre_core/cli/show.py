@@ -77,6 +77,28 @@ def spinner(what: str, *, quiet: bool) -> Iterator[None]:
         yield
 
 
+@contextmanager
+def counted(what: str, *, quiet: bool) -> Iterator[Callable[[int, int], None]]:
+    """Show how many of many jobs are done, and the time left, on standard error, if that is a terminal."""
+    from rich.console import Console
+    from rich.progress import MofNCompleteColumn, Progress, TimeElapsedColumn, TimeRemainingColumn
+
+    err = Console(stderr=True)
+    bar = Progress(
+        *Progress.get_default_columns()[:2],
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+        TimeRemainingColumn(),
+        console=err,
+        transient=True,
+        disable=quiet or not err.is_terminal,
+        speed_estimate_period=3600,
+    )
+    task = bar.add_task(what, total=None)
+    with bar:
+        yield lambda done, total: bar.update(task, completed=done, total=total)
+
+
 def print_diagnosis(found: "Diagnosis") -> None:
     """Verdict, effects with their parameters, where, and the fit."""
     from rich.markup import escape
