@@ -111,22 +111,33 @@ impl Law {
 
     /// Columns of the coefficients, in their order among the parameters, for given shapes.
     pub(crate) fn columns(&self, model: &Model, recording: &Recording, values: &[f64]) -> Vec<Vec<f64>> {
-        let level = &self.levels(values, None)[0].values;
-        let (mut columns, mut next) = (Vec::new(), 0);
+        Self::columns_of(model, &[(self, recording, values)]).pop().unwrap_or_default()
+    }
+
+    /// The same for several recordings, each under its law with its own values.
+    pub(crate) fn columns_of(model: &Model, of: &[(&Self, &Recording, &[f64])]) -> Vec<Vec<Vec<f64>>> {
+        let values: Vec<Vec<f64>> =
+            of.iter().map(|(law, _, values)| law.levels(values, None).swap_remove(0).values).collect();
+        let (mut found, mut next) = (vec![Vec::new(); of.len()], 0);
         for term in model.terms() {
             let shape = next + 1..next + 1 + term.shape(&Extent::UNIT).len();
-            let mut column = vec![0.0; recording.len()];
-            term.column(recording, &level[shape.clone()], &mut column);
-            if matches!(self, Self::Affine { .. }) && term.follows_current() {
-                for share in self.shares(recording) {
-                    columns.push(column.iter().zip(share).map(|(c, s)| c * s).collect());
+            let jobs: Vec<(&Recording, &[f64])> = of
+                .iter()
+                .zip(&values)
+                .map(|((_, recording, _), values)| (*recording, &values[shape.clone()]))
+                .collect();
+            for ((columns, column), (law, recording, _)) in found.iter_mut().zip(term.columns(&jobs)).zip(of)
+            {
+                if matches!(law, Self::Affine { .. }) && term.follows_current() {
+                    let of_share = |share: Vec<f64>| column.iter().zip(share).map(|(c, s)| c * s).collect();
+                    columns.extend(law.shares(recording).map(of_share));
+                } else {
+                    columns.push(column);
                 }
-            } else {
-                columns.push(column);
             }
             next = shape.end;
         }
-        columns
+        found
     }
 
     /// Shares of the lowest and the highest current in every sample.

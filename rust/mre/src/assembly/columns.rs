@@ -1,8 +1,13 @@
 //! The columns of an assembly on one recording.
 
+use std::borrow::Cow;
+
+use rayon::prelude::*;
+
 use super::base::{Base, Group};
 use super::layout::Assembly;
-use crate::effect::{Factors, Motion, Scene};
+use crate::effect::{About, Effect, Factors, Motion, Scene};
+use crate::law::Law;
 use crate::physics::Part;
 use crate::recording::Recording;
 
@@ -46,10 +51,27 @@ impl Columns {
     }
 }
 
-/// Columns of the base at some shapes, which cost more than those of most effects.
+/// Columns that are at hand: a step of a search moves one part of the model and leaves the others.
 pub(super) struct Known {
+    /// Shapes of the base, and its columns on every recording.
     pub(super) shapes: Vec<f64>,
     pub(super) columns: Vec<BaseColumns>,
+    /// What effects add.
+    pub(super) effects: Vec<Added>,
+}
+
+/// What an effect at some shape adds to or scales in every recording.
+pub(super) struct Added {
+    of: About,
+    shape: Vec<f64>,
+    columns: Vec<Vec<Vec<f64>>>,
+    factors: Vec<Option<Factors>>,
+}
+
+impl Known {
+    fn added(&self, effect: &dyn Effect, shape: &[f64]) -> Option<&Added> {
+        self.effects.iter().find(|known| known.shape == shape && known.of == effect.about())
+    }
 }
 
 /// Columns of the base on one recording, their places, and what they do with energy.
@@ -63,18 +85,30 @@ pub(super) struct BaseColumns {
 impl Assembly<'_> {
     /// Columns of a recording for shapes in their units.
     pub fn columns(&self, r: usize, shapes: &[f64]) -> Columns {
-        let mut shape_of = Vec::new();
-        let mut next = self.base_shapes();
-        for effect in &self.effects {
-            let count = effect.shape(self.campaign.sizes()).len();
-            shape_of.push(&shapes[next..next + count]);
-            next += count;
-        }
+        self.columns_of(&[(r, shapes)]).pop().unwrap_or_default()
+    }
+
+    /// Columns of several recordings, each for its own shapes: cheaper together than one by one.
+    pub fn columns_of(&self, jobs: &[(usize, &[f64])]) -> Vec<Columns> {
+        self.base_seen(jobs)
+            .into_par_iter()
+            .zip(jobs)
+            .map(|(base, (r, shapes))| self.with_effects(*r, shapes, base))
+            .collect()
+    }
+
+    /// Columns of a recording from those of its base.
+    fn with_effects(&self, r: usize, shapes: &[f64], base: BaseColumns) -> Columns {
+        let shape_of = self.shape_of(shapes);
         let scene = self.scene(r);
-        let base = self.base_seen(r, shapes, &scene, &shape_of);
         let mut found = Columns { columns: base.columns, places: base.places, given: None, clip: None };
         for (effect, shape) in self.effects.iter().zip(&shape_of) {
-            if let Some(factors) = effect.factors(&scene, shape) {
+            let known = self.known.as_ref().and_then(|known| known.added(*effect, shape));
+            let factors = match known {
+                Some(known) => known.factors[r].as_ref().map(Cow::Borrowed),
+                None => effect.factors(&scene, shape).map(Cow::Owned),
+            };
+            if let Some(factors) = factors {
                 scale(&factors, &base.parts, &mut found.columns);
             }
         }
@@ -92,57 +126,94 @@ impl Assembly<'_> {
         found
     }
 
-    /// Columns of the base with the motion and current that effects let it see.
-    fn base_seen(&self, r: usize, shapes: &[f64], scene: &Scene, shape_of: &[&[f64]]) -> BaseColumns {
-        let base_shapes = &shapes[..self.base_shapes()];
-        let recording = &self.campaign.recordings()[r];
-        let (motion, current) = self.seen(scene, shape_of);
-        if motion.is_some() || current.is_some() {
-            let motion = motion.unwrap_or_else(|| Motion {
-                displacement: scene.displacement.to_vec(),
-                velocity: scene.velocity.to_vec(),
-            });
-            let seen = recording.seen_with(motion.displacement, motion.velocity, current);
-            return self.base_columns(r, base_shapes, &seen);
-        }
-        match &self.known {
-            Some(known) if known.shapes == base_shapes => known.columns[r].clone(),
-            _ => self.base_columns(r, base_shapes, recording),
-        }
+    /// What each effect adds at these shapes; taken over where it is known.
+    pub(super) fn added(&self, shapes: &[f64]) -> Vec<Added> {
+        let recordings = self.campaign.recordings().len();
+        let of_effect = |(effect, shape): (&&'static dyn Effect, &[f64])| {
+            let (columns, factors) = (0..recordings)
+                .into_par_iter()
+                .map(|r| (effect.columns(&self.scene(r), shape), effect.factors(&self.scene(r), shape)))
+                .unzip();
+            Added { of: effect.about(), shape: shape.to_vec(), columns, factors }
+        };
+        self.effects.iter().zip(self.shape_of(shapes)).map(of_effect).collect()
     }
 
-    pub(super) fn base_columns(&self, r: usize, shapes: &[f64], seen: &Recording) -> BaseColumns {
+    /// True where all of this is at hand.
+    pub(super) fn knows(&self, shapes: &[f64]) -> bool {
+        self.known.as_ref().is_some_and(|known| {
+            known.shapes == shapes[..self.base_shapes()]
+                && self.effects.iter().zip(self.shape_of(shapes)).all(|(e, s)| known.added(*e, s).is_some())
+        })
+    }
+
+    /// True where effects change the motion or the current that the base sees.
+    pub(super) fn sees_otherwise(&self, shapes: &[f64]) -> bool {
+        let (motion, current) = self.seen(&self.scene(0), &self.shape_of(shapes));
+        motion.is_some() || current.is_some()
+    }
+
+    /// The shapes of each effect.
+    fn shape_of<'s>(&self, shapes: &'s [f64]) -> Vec<&'s [f64]> {
+        let mut next = self.base_shapes();
+        let own = |effect: &&'static dyn Effect| {
+            let count = effect.shape(self.campaign.sizes()).len();
+            next += count;
+            &shapes[next - count..next]
+        };
+        self.effects.iter().map(own).collect()
+    }
+
+    /// Columns of the base with the motion and current that effects let it see.
+    fn base_seen(&self, jobs: &[(usize, &[f64])]) -> Vec<BaseColumns> {
+        let mut found: Vec<Option<BaseColumns>> = Vec::with_capacity(jobs.len());
+        let mut seen: Vec<Cow<Recording>> = Vec::new();
+        let mut wanted: Vec<(usize, &[f64])> = Vec::new();
+        for (r, shapes) in jobs {
+            let base_shapes = &shapes[..self.base_shapes()];
+            let recording = &self.campaign.recordings()[*r];
+            let scene = self.scene(*r);
+            let (motion, current) = self.seen(&scene, &self.shape_of(shapes));
+            if motion.is_none() && current.is_none() {
+                let known = self.known.as_ref().filter(|known| known.shapes == base_shapes);
+                if let Some(columns) = known.and_then(|known| known.columns.get(*r)) {
+                    found.push(Some(columns.clone()));
+                    continue;
+                }
+                seen.push(Cow::Borrowed(recording.as_ref()));
+            } else {
+                let motion = motion.unwrap_or_else(|| Motion {
+                    displacement: scene.displacement.to_vec(),
+                    velocity: scene.velocity.to_vec(),
+                });
+                seen.push(Cow::Owned(recording.seen_with(motion.displacement, motion.velocity, current)));
+            }
+            found.push(None);
+            wanted.push((*r, base_shapes));
+        }
+        let jobs: Vec<(usize, &[f64], &Recording)> =
+            wanted.iter().zip(&seen).map(|((r, shapes), seen)| (*r, *shapes, seen.as_ref())).collect();
+        let mut made = self.base_columns(&jobs).into_iter();
+        found.into_iter().map(|known| known.or_else(|| made.next()).unwrap_or_default()).collect()
+    }
+
+    /// Columns of the base on recordings as it sees them: place in the campaign, shapes, what is seen.
+    pub(super) fn base_columns(&self, jobs: &[(usize, &[f64], &Recording)]) -> Vec<BaseColumns> {
         let fixed = |parts: Vec<(Part, Vec<f64>)>| {
             let (parts, columns) = parts.into_iter().unzip();
             BaseColumns { columns, places: Vec::new(), parts }
         };
         match self.base {
-            // A device that cannot be simulated with what an effect lets it see.
-            Base::Held(device) => fixed(device.parts(seen).unwrap_or_default()),
-            Base::Given(force) => fixed(vec![(Part::Stiffness, force[r].clone())]),
-            Base::Fitted(groups) => Self::group_columns(groups, r, shapes, seen),
-        }
-    }
-
-    fn group_columns(groups: &[Group], r: usize, shapes: &[f64], seen: &Recording) -> BaseColumns {
-        let (mut coefficient, mut shape) = (0, 0);
-        for group in groups {
-            if group.members.contains(&r) {
-                let mut values = vec![0.0; group.problem.parameters().len()];
-                for (k, place) in group.shapes.iter().enumerate() {
-                    values[*place] = shapes[shape + k];
-                }
-                let (model, law) = (group.problem.model(), group.problem.law());
-                return BaseColumns {
-                    columns: law.columns(model, seen, &values),
-                    places: (coefficient..coefficient + group.coefficients.len()).collect(),
-                    parts: law.parts(model),
-                };
+            Base::Held(device) => jobs
+                .par_iter()
+                // A device that cannot be simulated with what an effect lets it see.
+                .map(|(.., seen)| fixed(device.parts(seen).unwrap_or_default()))
+                .collect(),
+            Base::Given(force) => {
+                jobs.iter().map(|(r, ..)| fixed(vec![(Part::Stiffness, force[*r].clone())])).collect()
             }
-            coefficient += group.coefficients.len();
-            shape += group.shapes.len();
+            Base::Fitted(groups) => group_columns(groups, jobs),
         }
-        BaseColumns::default()
     }
 
     /// Motion and current that the base model sees, where an effect changes them.
@@ -165,7 +236,9 @@ impl Assembly<'_> {
         let mut next = self.base_coefficients();
         let mut readings = Vec::new();
         for (effect, shape) in self.effects.iter().zip(shape_of) {
-            let columns = effect.columns(scene, shape);
+            let known = self.known.as_ref().and_then(|known| known.added(*effect, shape));
+            let columns =
+                known.map_or_else(|| effect.columns(scene, shape), |known| known.columns[r].clone());
             let first = next + if effect.of_the_measurement() { r * columns.len() } else { 0 };
             let width = columns.len();
             let placed = columns.into_iter().enumerate().map(|(k, column)| (first + k, column));
@@ -195,6 +268,36 @@ impl Assembly<'_> {
             found.columns.push(column);
         }
     }
+}
+
+/// Columns of a model that is fitted in groups.
+fn group_columns(groups: &[Group], jobs: &[(usize, &[f64], &Recording)]) -> Vec<BaseColumns> {
+    let Some(model) = groups.first().map(|g| g.problem.model()) else { return Vec::new() };
+    let (mut values, mut places) = (Vec::new(), Vec::new());
+    for (r, shapes, _) in jobs {
+        let (mut coefficient, mut shape) = (0, 0);
+        for group in groups {
+            if group.members.contains(r) {
+                let mut own = vec![0.0; group.problem.parameters().len()];
+                for (k, place) in group.shapes.iter().enumerate() {
+                    own[*place] = shapes[shape + k];
+                }
+                values.push((group.problem.law(), own));
+                places.push((coefficient..coefficient + group.coefficients.len()).collect());
+                break;
+            }
+            coefficient += group.coefficients.len();
+            shape += group.shapes.len();
+        }
+    }
+    let of: Vec<(&Law, &Recording, &[f64])> =
+        jobs.iter().zip(&values).map(|((.., seen), (law, own))| (*law, *seen, own.as_slice())).collect();
+    Law::columns_of(model, &of)
+        .into_iter()
+        .zip(places)
+        .zip(&values)
+        .map(|((columns, places), (law, _))| BaseColumns { columns, places, parts: law.parts(model) })
+        .collect()
 }
 
 fn scale(factors: &Factors, parts: &[Part], columns: &mut [Vec<f64>]) {

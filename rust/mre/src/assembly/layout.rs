@@ -2,13 +2,12 @@
 
 use std::sync::Arc;
 
-use rayon::prelude::*;
-
 use super::base::{Base, Group};
 use super::campaign::Campaign;
 use super::columns::Known;
 use crate::effect::{Effect, Scene};
 use crate::parameter::{Parameter, Scale};
+use crate::recording::Recording;
 
 /// A base and effects on the recordings of a campaign.
 #[derive(Clone)]
@@ -51,27 +50,32 @@ impl<'a> Assembly<'a> {
         Self { whole, known, ..Self::new(self.campaign, self.base, effects, self.reference.clone()) }
     }
 
-    /// The same, with the columns of the base at these shapes at hand.
+    /// The same, with what belongs to these shapes at hand.
     pub(crate) fn knowing(&self, shapes: &[f64]) -> Self {
-        let shapes = &shapes[..self.base_shapes()];
-        if self.known.as_ref().is_some_and(|known| known.shapes == shapes) {
+        if self.knows(shapes) {
             return self.clone();
         }
-        let recordings = self.campaign.recordings();
-        let columns = recordings
-            .par_iter()
-            .enumerate()
-            .map(|(r, recording)| self.base_columns(r, shapes, recording))
-            .collect();
-        let known = Some(Arc::new(Known { shapes: shapes.to_vec(), columns }));
-        Self { known, ..self.clone() }
+        let own = &shapes[..self.base_shapes()];
+        let columns = match &self.known {
+            Some(known) if known.shapes == own => known.columns.clone(),
+            // The base sees another motion than the recorded one.
+            _ if self.sees_otherwise(shapes) => Vec::new(),
+            _ => {
+                let recordings = self.campaign.recordings().iter().enumerate();
+                let jobs: Vec<(usize, &[f64], &Recording)> =
+                    recordings.map(|(r, recording)| (r, own, recording.as_ref())).collect();
+                self.base_columns(&jobs)
+            }
+        };
+        let known = Known { shapes: own.to_vec(), columns, effects: self.added(shapes) };
+        Self { known: Some(Arc::new(known)), ..self.clone() }
     }
 
     /// The same with another force of the base model alone, which is also what is known of the whole device.
     #[must_use]
     pub fn referring_to(&self, reference: Vec<Vec<f64>>) -> Self {
         let reference = Arc::new(reference);
-        Self { whole: reference.clone(), reference, ..self.clone() }
+        Self { whole: reference.clone(), reference, known: None, ..self.clone() }
     }
 
     /// The same with the force of the whole device at these parameters.
@@ -82,7 +86,7 @@ impl<'a> Assembly<'a> {
         let own: Vec<f64> = coefficients.iter().zip(device).map(|(c, d)| if d { *c } else { 0.0 }).collect();
         let recordings = 0..self.campaign.recordings().len();
         let whole = recordings.map(|r| self.columns(r, &shapes).force(&own)).collect();
-        Self { whole: Arc::new(whole), ..self.clone() }
+        Self { whole: Arc::new(whole), known: None, ..self.clone() }
     }
 
     /// What effects see of a recording.

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 
 use super::begin::starts;
 use super::drift;
+use super::held::Held;
 use super::least_squares::{Data, Fitted, Point, refine, refine_at_most};
 use super::noise::Noise;
 use super::screen::{Null, Score};
@@ -12,17 +13,19 @@ use crate::assembly::Assembly;
 use crate::effect::{CATALOGUE, Effect};
 
 /// The best of them are also fitted from other shapes of the base.
-const UNBENT: usize = 3;
-/// Steps of such fits before the best is fitted to the end.
-const FEW_STEPS: usize = 6;
+const UNBENT: usize = 2;
+/// Such fits that are kept after so many steps; the best of the last is fitted to the end.
+const STAGES: [(usize, usize); 3] = [(4, 1), (2, 2), (1, 3)];
 /// Repetitions of a fit whose effect follows from the force.
 const PASSES: usize = 4;
 /// Candidates closer than this in the criterion fit equally well.
 const TIE: f64 = 4.0;
 /// Laws of one effect that are fitted jointly.
 const LAWS_EACH: usize = 2;
-/// A candidate whose score is below this share of the best is not refitted.
-const PROMISING: f64 = 0.15;
+/// A law whose score is below this share of the best is not looked at further.
+const PROMISING: f64 = 0.1;
+/// A law that takes off less than this share of the best, the model's tangents held, is not fitted jointly.
+const CLOSE: f64 = 0.4;
 
 /// A law with its joint fit.
 #[derive(Clone)]
@@ -106,16 +109,21 @@ pub(super) fn by_effect(scores: &[Score]) -> Vec<(&'static str, f64)> {
 
 /// The laws that are worth a joint fit, strongest first: a few of each effect, so that the many laws of one do
 /// not crowd out the others.
-fn promising(scores: &[Score], most: usize) -> Vec<&Score> {
-    let mut sorted: Vec<&Score> = scores.iter().filter(|s| s.gain > 0.0 && s.p_value < 0.5).collect();
-    sorted.sort_by(|a, b| b.gain.total_cmp(&a.gain));
-    let best = sorted.first().map_or(0.0, |s| s.gain);
-    let mut kept: Vec<&Score> = Vec::new();
-    for score in sorted {
-        let id = score.effect.about().effect;
-        let alike = kept.iter().filter(|k| k.effect.about().effect == id).count();
-        if alike < LAWS_EACH && score.gain >= PROMISING * best && kept.len() < most {
-            kept.push(score);
+fn promising<'s>(null: &Null, scores: &'s [Score], most: usize) -> Vec<Held<'s>> {
+    let best = scores.iter().map(|s| s.gain).fold(0.0, f64::max);
+    let mut refined: Vec<Held> = scores
+        .par_iter()
+        .filter(|s| s.gain > 0.0 && s.p_value < 0.5 && s.gain >= PROMISING * best)
+        .map(|s| null.held(s))
+        .collect();
+    refined.sort_by(|a, b| b.gain.total_cmp(&a.gain));
+    let best = refined.first().map_or(0.0, |held| held.gain);
+    let mut kept: Vec<Held> = Vec::new();
+    for held in refined {
+        let id = held.score.effect.about().effect;
+        let alike = kept.iter().filter(|k| k.score.effect.about().effect == id).count();
+        if alike < LAWS_EACH && held.gain >= CLOSE * best && kept.len() < most {
+            kept.push(held);
         }
     }
     kept
@@ -150,23 +158,26 @@ pub(super) fn fit<'a>(mut assembly: Assembly<'a>, data: Data, unit: &[f64]) -> C
     Candidate { assembly, fitted }
 }
 
-/// The better of a fit and of fits from other shapes of the base: its own have bent to hide the effect.
+/// The better of a fit and of fits from other shapes of the base: its own have bent to hide the effect. Those
+/// that fall behind are given up early.
 pub(super) fn unbent<'a>(candidate: Candidate<'a>, data: Data) -> Candidate<'a> {
     let known = candidate.assembly.base_shapes();
-    let others = starts(candidate.assembly.base());
-    let tried: Vec<Candidate> = others
-        .into_par_iter()
+    let mut running: Vec<Vec<f64>> = starts(candidate.assembly.base())
+        .into_iter()
         .filter(|start| !start.is_empty())
-        .map(|start| {
-            let mut unit = candidate.fitted.unit.clone();
-            unit.splice(..known, start);
-            let short = refine_at_most(&candidate.assembly, data, &unit, FEW_STEPS);
-            Candidate { assembly: candidate.assembly.clone(), fitted: short }
-        })
+        .map(|start| start.into_iter().chain(candidate.fitted.unit[known..].iter().copied()).collect())
         .collect();
-    let best = tried.into_iter().min_by(|a, b| a.fitted.left.total_cmp(&b.fitted.left));
+    let mut best: Option<Fitted> = None;
+    for (kept, steps) in STAGES {
+        let mut fitted: Vec<Fitted> =
+            running.par_iter().map(|unit| refine_at_most(&candidate.assembly, data, unit, steps)).collect();
+        fitted.sort_by(|a, b| a.left.total_cmp(&b.left));
+        fitted.truncate(kept);
+        running = fitted.iter().map(|f| f.unit.clone()).collect();
+        best = fitted.into_iter().next();
+    }
     match best {
-        Some(best) if best.fitted.left < candidate.fitted.left => fit(best.assembly, data, &best.fitted.unit),
+        Some(best) if best.left < candidate.fitted.left => fit(candidate.assembly, data, &best.unit),
         _ => candidate,
     }
 }
@@ -179,9 +190,10 @@ pub(super) fn candidates<'a>(
     scores: &[Score],
     most: usize,
 ) -> Vec<Candidate<'a>> {
-    let mut found: Vec<Candidate> = promising(scores, most)
+    let Some(null) = Null::new(assembly, data, unit) else { return Vec::new() };
+    let mut found: Vec<Candidate> = promising(&null, scores, most)
         .into_par_iter()
-        .map(|score| joint(assembly, data, unit, score.effect, &score.start))
+        .map(|held| joint(assembly, data, unit, held.score.effect, &held.shape))
         .collect();
     found.sort_by(|a, b| a.criterion().total_cmp(&b.criterion()));
     let rest = found.split_off(found.len().min(UNBENT));

@@ -54,7 +54,10 @@ pub(super) fn refine_at_most(assembly: &Assembly, data: Data, start: &[f64], mos
     let mut full = None;
     for _ in 0..most {
         let system = full.get_or_insert_with(|| here.with_tangents(assembly, data));
-        let step = step(system, here.fitted.coefficients.len(), damping, &here.fitted.unit);
+        let (step, promise) = step(system, here.fitted.coefficients.len(), damping, &here.fitted.unit);
+        if promise < LEAST_GAIN {
+            break;
+        }
         let unit: Vec<f64> =
             here.fitted.unit.iter().zip(step.iter()).map(|(u, s)| (u + s).clamp(0.0, 1.0)).collect();
         let next = Point::at(assembly, data, unit);
@@ -75,8 +78,9 @@ pub(super) fn refine_at_most(assembly: &Assembly, data: Data, start: &[f64], mos
     here.fitted
 }
 
-/// Damped Gauss-Newton step of the shapes; those on a wall stay where the step points out of the box.
-fn step(system: &Normal, coefficients: usize, damping: f64, unit: &[f64]) -> DVector<f64> {
+/// Damped Gauss-Newton step of the shapes, and what it takes off the linearised sum of squares; shapes on a
+/// wall stay where the step points out of the box.
+fn step(system: &Normal, coefficients: usize, damping: f64, unit: &[f64]) -> (DVector<f64>, f64) {
     let (k, d) = (coefficients, unit.len());
     let mut held = vec![false; d];
     loop {
@@ -91,7 +95,7 @@ fn step(system: &Normal, coefficients: usize, damping: f64, unit: &[f64]) -> DVe
         });
         let right = DVector::from_fn(open.len(), |a, _| system.right[open[a]] / scale[open[a]]);
         let mut found = DVector::zeros(d);
-        let Some(factor) = matrix.cholesky() else { return found };
+        let Some(factor) = matrix.cholesky() else { return (found, 0.0) };
         let solution = factor.solve(&right);
         for (a, i) in open.iter().enumerate() {
             if *i >= k {
@@ -108,7 +112,8 @@ fn step(system: &Normal, coefficients: usize, damping: f64, unit: &[f64]) -> DVe
         if !more {
             // No step leaves the trusted part of the box.
             let longest = found.iter().fold(0.0_f64, |m, s| m.max(s.abs()));
-            return if longest > 0.3 { found * (0.3 / longest) } else { found };
+            let promise = right.dot(&solution);
+            return (if longest > 0.3 { found * (0.3 / longest) } else { found }, promise);
         }
     }
 }
@@ -136,7 +141,8 @@ impl Point {
         let shapes = assembly.physical(&unit);
         let assembly = &assembly.knowing(&shapes);
         let count = assembly.campaign().recordings().len();
-        let raw: Vec<Columns> = (0..count).into_par_iter().map(|r| assembly.columns(r, &shapes)).collect();
+        let jobs: Vec<(usize, &[f64])> = (0..count).map(|r| (r, shapes.as_slice())).collect();
+        let raw: Vec<Columns> = assembly.columns_of(&jobs);
         let coefficients = assembly.coefficients();
         let mut values = vec![0.0; coefficients.len()];
         let mut masks = censored_by_measurement(assembly, &raw);
@@ -174,15 +180,15 @@ impl Point {
 
     /// Normal equations of coefficients and shapes together, for the residual.
     pub(super) fn with_tangents(&self, assembly: &Assembly, data: Data) -> Normal {
-        let assembly = &assembly.knowing(&assembly.physical(&self.fitted.unit));
         let (k, d) = (self.fitted.coefficients.len(), self.fitted.unit.len());
-        let parts: Vec<Normal> = (0..self.recordings.len())
+        let parts: Vec<Normal> = self
+            .tangents(assembly, data)
             .into_par_iter()
-            .map(|r| {
-                let local = &self.recordings[r];
-                let mut columns = self.tangents(assembly, data, r);
+            .zip(&self.recordings)
+            .map(|(tangents, local)| {
                 let first = local.columns.len();
-                columns.splice(0..0, local.columns.iter().cloned());
+                let columns: Vec<(usize, &[f64])> =
+                    local.columns.iter().chain(&tangents).map(|(i, c)| (*i, c.as_slice())).collect();
                 let mut normal = Normal::zeros(k + d);
                 // Only the new products: those of the linear columns are known.
                 for (i, a) in &columns {
@@ -190,11 +196,11 @@ impl Point {
                 }
                 for n in first..columns.len() {
                     for m in 0..=n {
-                        let ((i, a), (j, b)) = (&columns[n], &columns[m]);
+                        let ((i, a), (j, b)) = (columns[n], columns[m]);
                         let product = dot(a, b);
-                        normal.gram[(*i, *j)] += product;
+                        normal.gram[(i, j)] += product;
                         if i != j {
-                            normal.gram[(*j, *i)] += product;
+                            normal.gram[(j, i)] += product;
                         }
                     }
                 }
@@ -213,26 +219,48 @@ impl Point {
         system
     }
 
-    /// Whitened tangents of the shapes that bear on a recording.
-    pub(super) fn tangents(&self, assembly: &Assembly, data: Data, r: usize) -> Vec<(usize, Vec<f64>)> {
-        let (k, local) = (self.fitted.coefficients.len(), &self.recordings[r]);
-        let bearing = (0..self.fitted.unit.len()).filter(|j| assembly.bears(*j, r));
-        bearing
+    /// Whitened tangents of the shapes that bear on each recording.
+    pub(super) fn tangents(&self, assembly: &Assembly, data: Data) -> Vec<Vec<(usize, Vec<f64>)>> {
+        let here = assembly.physical(&self.fitted.unit);
+        let assembly = &assembly.knowing(&here);
+        let (k, count) = (self.fitted.coefficients.len(), self.recordings.len());
+        let moved: Vec<(f64, Vec<f64>)> = (0..self.fitted.unit.len())
             .map(|j| {
                 let mut unit = self.fitted.unit.clone();
                 let step = if unit[j] + STEP > 1.0 { -STEP } else { STEP };
                 unit[j] += step;
-                let moved = assembly.columns(r, &assembly.physical(&unit));
-                let mut change = moved.measured(&self.fitted.coefficients);
-                for (value, before) in change.iter_mut().zip(&local.force) {
-                    *value = (*value - before) / step;
+                let mut shapes = assembly.physical(&unit);
+                // Only one moves: the others stay to the bit, so that what is known of them is found.
+                for (i, shape) in shapes.iter_mut().enumerate().filter(|(i, _)| *i != j) {
+                    *shape = here[i];
+                }
+                (step, shapes)
+            })
+            .collect();
+        let places: Vec<(usize, usize)> = (0..count)
+            .flat_map(|r| (0..moved.len()).filter(move |j| assembly.bears(*j, r)).map(move |j| (r, j)))
+            .collect();
+        let jobs: Vec<(usize, &[f64])> = places.iter().map(|(r, j)| (*r, moved[*j].1.as_slice())).collect();
+        let changes: Vec<(usize, Vec<f64>)> = assembly
+            .columns_of(&jobs)
+            .into_par_iter()
+            .zip(&places)
+            .map(|(columns, (r, j))| {
+                let mut change = columns.measured(&self.fitted.coefficients);
+                for (value, before) in change.iter_mut().zip(&self.recordings[*r].force) {
+                    *value = (*value - before) / moved[*j].0;
                     if !value.is_finite() {
                         *value = 0.0;
                     }
                 }
-                (k + j, whitened(data.noise, r, &data.rows[r], &change))
+                (k + j, whitened(data.noise, *r, &data.rows[*r], &change))
             })
-            .collect()
+            .collect();
+        let mut found = vec![Vec::new(); count];
+        for (change, (r, _)) in changes.into_iter().zip(places) {
+            found[r].push(change);
+        }
+        found
     }
 }
 

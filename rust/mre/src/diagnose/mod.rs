@@ -12,6 +12,7 @@ mod candidates;
 mod distribution;
 mod drift;
 mod features;
+mod held;
 mod hum;
 mod intervals;
 mod least_squares;

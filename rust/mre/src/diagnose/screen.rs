@@ -5,11 +5,6 @@
 //! number, as far as they differ, by simulating the projections under the null: they are normal with a
 //! known covariance, whatever the number of samples.
 
-use nalgebra::{DMatrix, DVector};
-use rand_chacha::ChaCha8Rng;
-use rand_core::SeedableRng;
-use rayon::prelude::*;
-
 use super::bounded;
 use super::distribution::{chi_square_tail, normal};
 use super::least_squares::{Data, Point};
@@ -17,6 +12,9 @@ use super::normal::whitened;
 use crate::assembly::Assembly;
 use crate::effect::{Effect, Scene};
 use crate::kernel::filter::dot;
+use nalgebra::{DMatrix, DVector};
+use rand_chacha::ChaCha8Rng;
+use rand_core::SeedableRng;
 
 /// Share of a column's square that has to survive the projection: below it the column is absorbed.
 const SMALLEST_SHARE: f64 = 1e-8;
@@ -65,13 +63,11 @@ impl<'a> Null<'a> {
         let assembly = assembly.knowing(&assembly.physical(unit));
         let point = Point::at(&assembly, data, unit.to_vec());
         let count = point.fitted.coefficients.len() + unit.len();
-        let tangents: Vec<Vec<(usize, Vec<f64>)>> = (0..point.recordings.len())
-            .into_par_iter()
-            .map(|r| {
-                let mut all = point.recordings[r].columns.clone();
-                all.extend(point.tangents(&assembly, data, r));
-                all
-            })
+        let tangents: Vec<Vec<(usize, Vec<f64>)>> = point
+            .tangents(&assembly, data)
+            .into_iter()
+            .zip(&point.recordings)
+            .map(|(own, local)| local.columns.iter().cloned().chain(own).collect())
             .collect();
         let mut gram = DMatrix::<f64>::zeros(count, count);
         let mut right = DVector::<f64>::zeros(count);
@@ -164,7 +160,7 @@ impl<'a> Null<'a> {
         let joint = self.with(effect);
         let mut raw = vec![0.0; width * starts.len()];
         let (gram, right, squares) = self.project(width * starts.len(), |r| {
-            let columns = self.columns(&joint, effect, &starts, width, r);
+            let columns = self.law_columns(&joint, effect, &starts, width, r);
             for (i, column) in &columns {
                 raw[*i] += dot(column, column);
             }
@@ -217,14 +213,20 @@ impl<'a> Null<'a> {
         })
     }
 
-    fn with(&self, effect: &'static dyn Effect) -> Assembly<'a> {
+    /// The model with one more law.
+    pub(super) fn with(&self, effect: &'static dyn Effect) -> Assembly<'a> {
         let mut effects = self.assembly.effects().to_vec();
         effects.push(effect);
         self.assembly.with(effects)
     }
 
-    /// Columns of all starts of a law on one recording.
-    fn columns(
+    /// Shapes of the fitted model, in their units.
+    pub(super) fn shapes(&self) -> Vec<f64> {
+        self.assembly.physical(&self.point.fitted.unit)
+    }
+
+    /// Columns of all starts of a law on one recording, with their places.
+    pub(super) fn law_columns(
         &self,
         joint: &Assembly,
         effect: &'static dyn Effect,
@@ -232,12 +234,13 @@ impl<'a> Null<'a> {
         width: usize,
         r: usize,
     ) -> Vec<(usize, Vec<f64>)> {
-        let shapes = self.assembly.physical(&self.point.fitted.unit);
+        let shapes = self.shapes();
         let known = self.point.fitted.coefficients.len();
         let mut found = Vec::new();
-        for (s, start) in starts.iter().enumerate() {
-            let all: Vec<f64> = shapes.iter().chain(start).copied().collect();
-            let columns = joint.columns(r, &all);
+        let all: Vec<Vec<f64>> =
+            starts.iter().map(|start| shapes.iter().chain(start).copied().collect()).collect();
+        let jobs: Vec<(usize, &[f64])> = all.iter().map(|shapes| (r, shapes.as_slice())).collect();
+        for (s, columns) in joint.columns_of(&jobs).into_iter().enumerate() {
             if effect.coefficients().is_empty() {
                 let mut change = columns.measured(&self.point.fitted.coefficients);
                 for (c, f) in change.iter_mut().zip(&self.point.recordings[r].force) {

@@ -21,9 +21,9 @@ use crate::effect::{CATALOGUE, Effect};
 /// Most effects that are named.
 const MOST: usize = 4;
 /// Candidates that are refitted jointly.
-pub(super) const REFITTED: usize = 12;
+pub(super) const REFITTED: usize = 8;
 /// The same where only the best is wanted, roughly.
-const FEW: usize = 4;
+const FEW: usize = 3;
 /// Candidates for the first of a pair.
 const FIRSTS: usize = 5;
 /// A further effect lowers the held-out rms by more than this share of the noise's rms.
@@ -173,7 +173,7 @@ impl<'a> Search<'_, 'a> {
     ) -> Option<Candidate<'a>> {
         let null = super::screen::Null::new(&without.assembly, data, &without.fitted.unit)?;
         let score = null.score(effect, self.seed)?;
-        Some(joint(&without.assembly, data, &without.fitted.unit, effect, &score.start))
+        Some(joint(&without.assembly, data, &without.fitted.unit, effect, &null.held(&score).shape))
     }
 
     /// A model without one of its effects, refitted.

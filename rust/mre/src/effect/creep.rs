@@ -11,7 +11,7 @@
 //! Reference: Findley, Lai and Onaran, Creep and Relaxation of Nonlinear Viscoelastic Materials, 1976.
 //! Known limit: with a mean displacement and in one recording it cannot be told from drift.
 
-use super::maxwell::branch;
+use super::maxwell::{branch, branches};
 use super::{About, Effect, Factors, Scene, Sizes, order_within, orders, positive, within};
 use crate::parameter::Parameter;
 
@@ -36,13 +36,8 @@ fn flat(scene: &Scene, t_0: f64) -> Vec<f64> {
     let decades = (10.0 * scene.duration() / t_0).log10().max(0.5);
     let count = (A_DECADE * decades).ceil() as usize + 1;
     let weight = decades / (count - 1) as f64;
-    let mut sum = vec![0.0; scene.len()];
-    for tau in orders(t_0, t_0 * 10.0_f64.powf(decades), count) {
-        for (s, z) in sum.iter_mut().zip(branch(scene, tau)) {
-            *s += weight * z;
-        }
-    }
-    sum
+    let taus = orders(t_0, t_0 * 10.0_f64.powf(decades), count);
+    branches(scene, taus.into_iter().map(|tau| (tau, weight)))
 }
 
 impl Creep {

@@ -27,7 +27,7 @@ pub(super) fn delayed(step: f64, series: &[f64], delay: f64) -> Vec<f64> {
 }
 
 /// Second derivatives, per step squared, of the natural cubic spline through evenly spaced values.
-fn second_differences(y: &[f64]) -> Vec<f64> {
+pub(super) fn second_differences(y: &[f64]) -> Vec<f64> {
     let n = y.len();
     let (mut bend, mut share) = (vec![0.0; n], vec![0.0; n]);
     // Tridiagonal: m[i-1] + 4 m[i] + m[i+1] = 6 (y[i-1] - 2 y[i] + y[i+1]).

@@ -15,7 +15,7 @@
 
 use std::f64::consts::PI;
 
-use super::maxwell::branch;
+use super::maxwell::branches;
 use super::{About, Effect, Scene, Sizes, order_within, orders, positive, within};
 use crate::parameter::Parameter;
 
@@ -46,16 +46,10 @@ fn relaxation(
     let rate = |j: f64| lowest * (spacing * j).exp();
     let (spring, dashpot) = beyond(rate(-0.5), rate(count as f64 - 0.5));
     let x0 = scene.displacement[0];
+    let rates = (0..count).map(|j| rate(j as f64));
+    let relaxed = branches(scene, rates.map(|rate| (1.0 / rate, spacing * weight(rate))));
     let motion = scene.displacement.iter().zip(scene.velocity);
-    let mut sum: Vec<f64> = motion.map(|(x, v)| spring * (x - x0) + dashpot * v).collect();
-    for j in 0..count {
-        let rate = rate(j as f64);
-        let w = spacing * weight(rate);
-        for (s, z) in sum.iter_mut().zip(branch(scene, 1.0 / rate)) {
-            *s += w * z;
-        }
-    }
-    sum
+    motion.zip(relaxed).map(|((x, v), z)| spring * (x - x0) + dashpot * v + z).collect()
 }
 
 /// Caputo derivative of order `a` of the displacement, from rest.

@@ -11,6 +11,7 @@
 
 use super::operators::lag;
 use super::{About, Effect, Scene, Sizes, order_within, orders, positive};
+use crate::kernel::relaxation::lags;
 use crate::parameter::Parameter;
 
 /// One branch or two.
@@ -29,6 +30,12 @@ pub(super) fn branch(scene: &Scene, tau: f64) -> Vec<f64> {
         *z *= tau;
     }
     z
+}
+
+/// `sum w z` of `z' = v - z / tau` from rest for pairs `(tau, w)`.
+pub(super) fn branches(scene: &Scene, of: impl Iterator<Item = (f64, f64)>) -> Vec<f64> {
+    let of: Vec<(f64, f64)> = of.map(|(tau, w)| (tau, w * tau)).collect();
+    lags(scene.time, scene.velocity, &of)
 }
 
 impl Effect for Maxwell {

@@ -1,31 +1,7 @@
 //! Operators on series that several laws share: first-order lag, play, Dahl's element, integrals.
 
 use super::Scene;
-
-/// Steps that differ by less than this share of themselves count as equal.
-const SAME_STEP: f64 = 1e-9;
-
-/// `y' = (u - y) / tau` from `start`: exact for an input that is linear between samples.
-pub(super) fn lag(time: &[f64], input: &[f64], tau: f64, start: f64) -> Vec<f64> {
-    let (mut step, mut decay, mut early, mut late) = (0.0_f64, 1.0, 0.0, 0.0);
-    let mut y = start;
-    let mut out = Vec::with_capacity(input.len());
-    out.push(y);
-    for i in 1..input.len() {
-        let own = time[i] - time[i - 1];
-        if (own - step).abs() > SAME_STEP * own {
-            step = own;
-            let h = step / tau;
-            let whole = -(-h).exp_m1();
-            decay = 1.0 - whole;
-            late = 1.0 - whole / h;
-            early = whole - late;
-        }
-        y = decay * y + early * input[i - 1] + late * input[i];
-        out.push(y);
-    }
-    out
-}
+pub(super) use crate::kernel::relaxation::lag;
 
 /// Play of half width `r`: follows the input once the slack is taken up.
 pub(super) fn play(input: &[f64], r: f64) -> Vec<f64> {

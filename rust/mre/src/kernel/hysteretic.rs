@@ -23,7 +23,7 @@ impl Plan {
         Self::of(recording.time(), recording.velocity())
     }
 
-    fn of(time: &[f64], velocity: &[f64]) -> Self {
+    pub(super) fn of(time: &[f64], velocity: &[f64]) -> Self {
         let step: Vec<f64> = time.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let demand: Vec<f64> = velocity
             .windows(2)

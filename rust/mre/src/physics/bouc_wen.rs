@@ -19,6 +19,7 @@
 use super::Term;
 use crate::extent::Extent;
 use crate::kernel::hysteretic;
+use crate::kernel::hysteretic_traces::{Motion, traces};
 use crate::parameter::{Parameter, Scale};
 use crate::recording::Recording;
 
@@ -64,6 +65,18 @@ impl Term for BoucWen {
     fn column(&self, recording: &Recording, shape: &[f64], out: &mut [f64]) {
         let (time, velocity) = (recording.time(), recording.velocity());
         hysteretic::trace(time, velocity, [shape[0], shape[1], shape[2]], out);
+    }
+
+    fn columns(&self, of: &[(&Recording, &[f64])]) -> Vec<Vec<f64>> {
+        let motions: Vec<Motion> = of
+            .iter()
+            .map(|(recording, shape)| Motion {
+                time: recording.time(),
+                velocity: recording.velocity(),
+                shape: [shape[0], shape[1], shape[2]],
+            })
+            .collect();
+        traces(&motions)
     }
 }
 

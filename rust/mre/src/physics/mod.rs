@@ -54,4 +54,14 @@ pub trait Term: Send + Sync {
     /// Fill `out` with the column of the term. A column that cannot be computed (a step too coarse
     /// for a stiff candidate) is filled with infinity, never with NaN.
     fn column(&self, recording: &Recording, shape: &[f64], out: &mut [f64]);
+
+    /// Columns of several recordings, each with its own shape. A column does not depend on the others.
+    fn columns(&self, of: &[(&Recording, &[f64])]) -> Vec<Vec<f64>> {
+        let column = |(recording, shape): &(&Recording, &[f64])| {
+            let mut out = vec![0.0; recording.len()];
+            self.column(recording, shape, &mut out);
+            out
+        };
+        of.iter().map(column).collect()
+    }
 }

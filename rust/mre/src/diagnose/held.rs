@@ -1,0 +1,157 @@
+//! Laws refined beside a fitted model whose tangents are held: their own shapes move, the model bends along
+//! its tangents only. A hundredth of the work of a joint fit, and a good start for one.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::bounded;
+use super::screen::{Null, Score};
+use crate::assembly::Assembly;
+
+/// Step of the difference quotients, in the unit box.
+const STEP: f64 = 1e-4;
+/// Steps at most.
+const MOST: usize = 8;
+/// The search ends when a step promises less than this (in squared standard deviations).
+const LEAST_GAIN: f64 = 0.02;
+/// Longest step, in the unit box.
+const LONGEST: f64 = 0.3;
+
+/// A law at its best shapes.
+#[derive(Clone)]
+pub(super) struct Held<'s> {
+    /// Its score test.
+    pub(super) score: &'s Score,
+    /// Shapes in their units.
+    pub(super) shape: Vec<f64>,
+    /// Squared standard deviations that it takes off.
+    pub(super) gain: f64,
+}
+
+/// A law at some shapes: what it gains, and the Gauss-Newton step to better ones.
+struct Local {
+    gain: f64,
+    gram: DMatrix<f64>,
+    right: DVector<f64>,
+    coefficients: usize,
+}
+
+impl Null<'_> {
+    /// Refine a law from its strongest start.
+    pub(super) fn held<'s>(&self, score: &'s Score) -> Held<'s> {
+        let joint = self.with(score.effect);
+        let base = self.shapes();
+        let all: Vec<f64> = base.iter().chain(&score.start).copied().collect();
+        let mut unit = joint.unit(&all).split_off(base.len());
+        let physical = |unit: &[f64]| {
+            let all: Vec<f64> = joint.unit(&base).into_iter().chain(unit.iter().copied()).collect();
+            joint.physical(&all).split_off(base.len())
+        };
+        let stay = |gain: f64| Held { score, shape: score.start.clone(), gain };
+        if unit.is_empty() {
+            return stay(score.gain);
+        }
+        let mut here = self.local(&joint, score, &unit, &physical);
+        let mut damping = 1e-3;
+        for _ in 0..MOST {
+            let (step, promise) = here.step(damping, &unit);
+            if promise < LEAST_GAIN {
+                break;
+            }
+            let tried: Vec<f64> = unit.iter().zip(&step).map(|(u, s)| (u + s).clamp(0.0, 1.0)).collect();
+            let next = self.local(&joint, score, &tried, &physical);
+            if next.gain > here.gain {
+                (here, unit) = (next, tried);
+                damping *= 0.2;
+            } else {
+                damping *= 30.0;
+            }
+        }
+        // Where the change is not proportional to a coefficient the start may be too far for its size.
+        if here.gain <= 0.0 { stay(0.0) } else { Held { score, shape: physical(&unit), gain: here.gain } }
+    }
+
+    fn local(
+        &self,
+        joint: &Assembly,
+        score: &Score,
+        unit: &[f64],
+        physical: &dyn Fn(&[f64]) -> Vec<f64>,
+    ) -> Local {
+        let moves: Vec<f64> = unit.iter().map(|u| if u + STEP > 1.0 { -STEP } else { STEP }).collect();
+        let mut shapes = vec![physical(unit)];
+        for (j, step) in moves.iter().enumerate() {
+            let mut moved = unit.to_vec();
+            moved[j] += step;
+            shapes.push(physical(&moved));
+        }
+        let w = score.freedom;
+        let (gram, right, _) =
+            self.project(w * shapes.len(), |r| self.law_columns(joint, score.effect, &shapes, w, r));
+        let effect = score.effect.coefficients();
+        let values = if effect.is_empty() {
+            vec![1.0; w]
+        } else {
+            let limit = |k: usize| &effect[k % effect.len()];
+            let lower: Vec<f64> = (0..w).map(|k| limit(k).smallest).collect();
+            let upper: Vec<f64> = (0..w).map(|k| limit(k).largest).collect();
+            let own = gram.view((0, 0), (w, w)).into_owned();
+            bounded::minimise(&own, &right.rows(0, w).into_owned(), &lower, &upper)
+        };
+        // Columns of the linearised law: those of the coefficients, and one for each shape.
+        let free = if effect.is_empty() { 0 } else { w };
+        let mut basis = DMatrix::<f64>::zeros(w * shapes.len(), free + unit.len());
+        let mut model = DVector::<f64>::zeros(w * shapes.len());
+        for (k, value) in values.iter().enumerate() {
+            model[k] = *value;
+            if free > 0 {
+                basis[(k, k)] = 1.0;
+            }
+            for (j, step) in moves.iter().enumerate() {
+                basis[((j + 1) * w + k, free + j)] = value / step;
+                basis[(k, free + j)] = -value / step;
+            }
+        }
+        let carried = &gram * &model;
+        let gain = 2.0 * right.dot(&model) - model.dot(&carried);
+        Local {
+            gain: if gain.is_finite() { gain } else { 0.0 },
+            gram: basis.transpose() * &gram * &basis,
+            right: basis.transpose() * (right - carried),
+            coefficients: free,
+        }
+    }
+}
+
+impl Local {
+    /// Damped step of the shapes and what it promises; shapes on a wall do not leave the box.
+    fn step(&self, damping: f64, unit: &[f64]) -> (Vec<f64>, f64) {
+        let (k, d) = (self.coefficients, unit.len());
+        let mut held = vec![false; d];
+        loop {
+            let open: Vec<usize> =
+                (0..k + d).filter(|i| self.gram[(*i, *i)] > 0.0 && (*i < k || !held[i - k])).collect();
+            let scale: Vec<f64> = open.iter().map(|i| self.gram[(*i, *i)].sqrt()).collect();
+            let matrix = DMatrix::from_fn(open.len(), open.len(), |a, b| {
+                let ridge = if a == b { 1e-10 + if open[a] < k { 0.0 } else { damping } } else { 0.0 };
+                self.gram[(open[a], open[b])] / (scale[a] * scale[b]) + ridge
+            });
+            let right = DVector::from_fn(open.len(), |a, _| self.right[open[a]] / scale[a]);
+            let mut step = vec![0.0; d];
+            let Some(factor) = matrix.cholesky() else { return (step, 0.0) };
+            let solution = factor.solve(&right);
+            for (a, i) in open.iter().enumerate().filter(|(_, i)| **i >= k) {
+                step[i - k] = solution[a] / scale[a];
+            }
+            let outward = |j: usize| (unit[j] <= 0.0 && step[j] < 0.0) || (unit[j] >= 1.0 && step[j] > 0.0);
+            let leaving: Vec<usize> = (0..d).filter(|j| !held[*j] && outward(*j)).collect();
+            if leaving.is_empty() {
+                let longest = step.iter().fold(0.0_f64, |m, s| m.max(s.abs()));
+                let share = if longest > LONGEST { LONGEST / longest } else { 1.0 };
+                return (step.iter().map(|s| s * share).collect(), right.dot(&solution));
+            }
+            for j in leaving {
+                held[j] = true;
+            }
+        }
+    }
+}
