@@ -2,7 +2,7 @@
 
     python benches/real_proof [--out docs/real] [CASE ...]
 
-Writes one page a case with a figure, and README.md with one line a case. Nothing is simulated; the last three
+Writes one page a case with a figure, and table.md with one line a case. Nothing is simulated; the last three
 cases alter the force channel of a real recording. The recordings are read from the folder MRE_DATA.
 """
 
@@ -17,6 +17,11 @@ from page import answered, write
 from recordings import DATA
 
 OUT = Path(__file__).resolve().parents[2] / "docs" / "real"
+TABLE = "table.md"
+HEAD = (
+    "| case | answered | named | verdict | held out before / N | after / N |",
+    "|---|---|---|---|---:|---:|",
+)
 
 
 def main() -> int:
@@ -34,23 +39,27 @@ def main() -> int:
         return 2
     options.out.mkdir(parents=True, exist_ok=True)
     warnings.simplefilter("ignore")
+    rows = _rows(options.out / TABLE)
     for name in options.case or CASES:
         start = time.perf_counter()
         proof = CASES[name]()
         write(proof, options.out)
         named = ", ".join(effect.id for effect in proof.diagnosis.effects) or "nothing"
         fit = proof.diagnosis.fit
-        line = (
-            f"| [{proof.title}]({name}.md) | {answered(proof)} | {named} | {proof.diagnosis.verdict}"
-            f" | {fit.held_out_rms_before:.4g} | {fit.held_out_rms_after:.4g} |\n"
+        rows[name] = (
+            f"| [{proof.title}]({options.out.name}/{name}.md) | {answered(proof)} | {named}"
+            f" | {proof.diagnosis.verdict} | {fit.held_out_rms_before:.4g} | {fit.held_out_rms_after:.4g} |"
         )
-        (options.out / f"{name}.row").write_text(line, encoding="utf-8")
+        lines = [*HEAD, *(rows[name] for name in CASES if name in rows)]
+        (options.out / TABLE).write_text("\n".join(lines) + "\n", encoding="utf-8")
         print(f"{name}: {answered(proof)}, {named}, {time.perf_counter() - start:.0f} s", flush=True)
-    rows = [path.read_text(encoding="utf-8") for n in CASES if (path := options.out / f"{n}.row").exists()]
-    head = "| case | answered | named | verdict | held out before / N | after / N |\n|---|---|---|---|---:|---:|\n"
-    title = "Real recordings with an effect withheld, by `benches/real_proof`\n\n"
-    (options.out / "README.md").write_text(title + head + "".join(rows), encoding="utf-8")
     return 0
+
+
+def _rows(table: Path) -> dict[str, str]:
+    """Lines of cases that were run before, by case."""
+    lines = table.read_text(encoding="utf-8").splitlines() if table.exists() else []
+    return {name: line for line in lines for name in CASES if f"/{name}.md)" in line}
 
 
 if __name__ == "__main__":

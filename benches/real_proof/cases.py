@@ -2,10 +2,12 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import cache
 
 import mre_core
 import numpy as np
-from mre_core import Diagnosis, Model, Recording
+from mre_core import Diagnosis, Recording
+from numpy.typing import NDArray
 from recordings import building, damper, with_force
 
 SEED = 1
@@ -25,7 +27,9 @@ class Proof:
     held_out: list[Recording] = field(default_factory=list)
     """Recordings that took no part at all."""
     sizes: Mapping[tuple[str, str], float] = field(default_factory=dict)
-    """True values of parameters, by effect and name; known where the script altered the channel."""
+    """Values wanted of parameters, by effect and name: what was put in beside what was there before."""
+    put_in: Mapping[str, float] = field(default_factory=dict)
+    """What the script put in, by parameter."""
 
 
 def memory() -> Proof:
@@ -34,7 +38,7 @@ def memory() -> Proof:
     return Proof(
         "building-memory",
         "Rubber isolators of a building, base model without memory",
-        "The base model is a spring and a dashpot; that the isolators remember their path is withheld from it."
+        "The base model is a spring and a dashpot; that the isolators remember their path is withheld."
         " The tool gets the earthquakes CNP100 and ICA100 (one sample of four); SP100 and ICA140 are shown to"
         " neither model.",
         {"hysteresis": "lead-free rubber dissipates by rate-independent memory"},
@@ -80,8 +84,8 @@ def yield_and_clearance() -> Proof:
     return Proof(
         "damper-yield",
         "MR damper, base model without yield force and clearance",
-        "The base model is a spring and a dashpot with an offset. Withheld are the yield force of the fluid and"
-        " the clearance that shows as a kink after each reversal.",
+        "The base model is a spring and a dashpot with an offset. Withheld are the yield force of the fluid"
+        " and the clearance that shows as a kink after each reversal.",
         {
             "coulomb_friction": "the yield force",
             "hysteresis": "the yield force, with its stiffness before yielding",
@@ -92,66 +96,82 @@ def yield_and_clearance() -> Proof:
     )
 
 
-def altered(name: str, title: str, told: str, effect: str, change: Callable[[Recording], Recording],
-            sizes: Callable[[Recording], Mapping[tuple[str, str], float]]) -> Proof:  # fmt: skip
-    """The damper's force channel altered; the base is what a diagnosis of the recording as it is found."""
+@cache
+def _as_measured() -> tuple[Recording, Diagnosis]:
+    """A test of the damper, and what a diagnosis says before anything is put in."""
     (whole,) = damper(["5mm4Hz0x5A"])
-    before: Model = mre_core.diagnose([whole], "bouc_wen", seed=SEED).model
+    return whole, mre_core.diagnose([whole], "bouc_wen", seed=SEED)
+
+
+def altered(
+    name: str, title: str, told: str, effect: str, force: NDArray[np.float64], sizes: Mapping[str, float]
+) -> Proof:
+    """The damper's force channel altered: diagnosed as measured and as altered, with the same base."""
+    whole, before = _as_measured()
+    named = ", ".join(f"{e.id}" for e in before.effects) or "nothing"
+    there = {
+        (e.id, key): p.value for e in before.effects for key, p in e.parameters.items() if e.id == effect
+    }
     return Proof(
         name,
         title,
-        f"{told} The base model is what the diagnosis found on the recording as it was measured"
-        f" ({', '.join(e.id for e in before.effects) or 'no effects'}), so that only the alteration is new.",
+        f"{told} Before that, the diagnosis of the same recording names {named}"
+        + "".join(f" with {key} = {value:.4g}" for (_, key), value in there.items())
+        + ".",
         {effect: "it was put in"},
-        mre_core.diagnose([change(whole)], before, seed=SEED),
-        sizes=sizes(whole),
+        mre_core.diagnose([with_force(whole, force)], "bouc_wen", seed=SEED),
+        sizes={(effect, key): there.get((effect, key), 0.0) + size for key, size in sizes.items()},
+        put_in=sizes,
     )
 
 
+def _measured() -> tuple[Recording, NDArray[np.float64], NDArray[np.float64]]:
+    """The test, its force, and the part of it that is scored."""
+    whole, _ = _as_measured()
+    force = np.asarray(whole.force)
+    return whole, force, force[slice(*whole.scored)]
+
+
 def delayed() -> Proof:
-    """The force channel 5 ms late."""
-
-    def change(r: Recording) -> Recording:
-        late = round(0.005 * r.sampling_rate)
-        force = np.asarray(r.force)
-        return with_force(r, np.concatenate([np.full(late, force[0]), force[:-late]]))
-
+    """The force channel 5 ms late: what a diagnosis finds in addition to what it found before."""
+    whole, force, _ = _measured()
+    late = round(0.005 * whole.sampling_rate)
     return altered(
-        "damper-delay", "MR damper, force channel 5 ms late",
+        "damper-delay",
+        "MR damper, force channel 5 ms late",
         "A real recording of the damper at 1000 Hz; its force channel is shifted by five samples.",
-        "time_delay", change, lambda r: {("time_delay", "d"): 0.005},
-    )  # fmt: skip
+        "time_delay",
+        np.concatenate([np.full(late, force[0]), force[:-late]]),
+        {"d": late / whole.sampling_rate},
+    )
 
 
 def clipped() -> Proof:
     """The force channel clipped at 90 % of its largest value."""
-
-    def level(r: Recording) -> float:
-        return 0.9 * float(np.max(np.abs(np.asarray(r.force)[slice(*r.scored)])))
-
+    _, force, scored = _measured()
+    level = 0.9 * float(np.max(np.abs(scored)))
     return altered(
-        "damper-clipping", "MR damper, force channel clipped at 90 %",
+        "damper-clipping",
+        "MR damper, force channel clipped at 90 %",
         "A real recording of the damper; its force channel ends at 90 % of the largest force.",
-        "force_clipping", lambda r: with_force(r, np.clip(np.asarray(r.force), -level(r), level(r))),
-        lambda r: {("force_clipping", "L"): level(r)},
-    )  # fmt: skip
+        "force_clipping",
+        np.clip(force, -level, level),
+        {"L": level},
+    )
 
 
 def hummed() -> Proof:
     """Mains hum on the force channel, 3 % of the force."""
-
-    def size(r: Recording) -> float:
-        return 0.03 * 2**0.5 * float(np.std(np.asarray(r.force)[slice(*r.scored)]))
-
-    def change(r: Recording) -> Recording:
-        return with_force(r, np.asarray(r.force) + size(r) * np.sin(2 * np.pi * 50 * r.time))
-
+    whole, force, scored = _measured()
+    size = 0.03 * 2**0.5 * float(np.std(scored))
     return altered(
-        "damper-hum", "MR damper, mains hum on the force channel",
-        "A real recording of the damper; a 50 Hz sine of 3 % of the force's rms is added to its force channel.",
-        "mains_interference", change,
-        lambda r: {("mains_interference", "A_1, B_1"): size(r), ("mains_interference", "f"): 50.0},
-    )  # fmt: skip
+        "damper-hum",
+        "MR damper, mains hum on the force channel",
+        "A real recording of the damper; a 50 Hz sine of 3 % of the force's rms is added to its force.",
+        "mains_interference",
+        force + size * np.sin(2 * np.pi * 50 * whole.time),
+        {"A_1, B_1": size, "f": 50.0},
+    )
 
 
 CASES: dict[str, Callable[[], Proof]] = {

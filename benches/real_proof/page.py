@@ -10,15 +10,15 @@ from mre_core.plot import plot_diagnosis
 
 
 def answered(proof: Proof) -> str:
-    """One word on the question of the case."""
+    """One word on the question of the case: named, and what was put in right within 10 %."""
     named = {effect.id for effect in proof.diagnosis.effects}
     if not named & set(proof.expected):
         return "no"
-    return "yes" if all(abs(found / true - 1) <= 0.1 for _, true, found in sizes(proof)) else "in part"
+    return "yes" if all(abs(error) <= 0.1 for *_, error in sizes(proof)) else "in part"
 
 
-def sizes(proof: Proof) -> Iterator[tuple[str, float, float]]:
-    """Name, truth and estimate of what the script put in; an amplitude is that of its two parts."""
+def sizes(proof: Proof) -> Iterator[tuple[str, float, float, float]]:
+    """Name, wanted, found, and the error as a share of what was put in; an amplitude has two parts."""
     for (effect, names), true in proof.sizes.items():
         parts = [
             estimate.value
@@ -28,7 +28,8 @@ def sizes(proof: Proof) -> Iterator[tuple[str, float, float]]:
             if name.split("(")[0] in names.split(", ")
         ]
         if parts:
-            yield f"{names} of {effect}", true, float(np.hypot.reduce(parts)) if len(parts) > 1 else parts[0]
+            found = float(np.hypot.reduce(parts)) if len(parts) > 1 else parts[0]
+            yield f"{names} of {effect}", true, found, (found - true) / proof.put_in[names]
 
 
 def write(proof: Proof, folder: Path) -> None:
@@ -61,14 +62,15 @@ def _paragraphs(proof: Proof, figure: str) -> Iterator[str]:
     if found.where:
         yield "**Where:**"
         yield "\n".join(f"- {place['what']}" for place in found.where[:5])
-    true = [f"| {name} | {t:.5g} | {f:.5g} | {100 * (f / t - 1):+.1f} % |" for name, t, f in sizes(proof)]
+    true = [f"| {name} | {t:.5g} | {f:.5g} | {100 * error:+.1f} % |" for name, t, f, error in sizes(proof)]
     if true:
-        yield "\n".join(["| put in | truth | found | error |", "|---|---:|---:|---:|", *true])
+        head = "| parameter | there before and put in | found | error over what was put in |"
+        yield "\n".join([head, "|---|---:|---:|---:|", *true])
     yield figure
     fit = found.fit
     rows = [
         f"| training | {fit.train_rms_before:.4g} | {fit.train_rms_after:.4g} |",
-        f"| held-out blocks or recordings of these | {fit.held_out_rms_before:.4g} | {fit.held_out_rms_after:.4g} |",
+        f"| held out of the fit | {fit.held_out_rms_before:.4g} | {fit.held_out_rms_after:.4g} |",
     ]
     for recording in proof.held_out:
         force = np.asarray(recording.force)[slice(*recording.scored)]

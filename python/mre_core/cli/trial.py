@@ -83,6 +83,7 @@ def open_(
     found = open_trial(directory, answers=answers, seal=seal)
     if tables is not None:
         with staged(tables) as stage:
+            stage.path("seal.md").write_text(f"{found}\n", encoding="utf-8")
             for sheet in found.sheets:
                 stage.path(f"{sheet.name}.md").write_text(sheet.markdown(), encoding="utf-8")
     if as_json:
@@ -98,7 +99,7 @@ def _print(found: "Opening") -> None:
     from .show import console
 
     out = console()
-    out.print(f"The seal holds: {found.seal}. Seed {found.seed}.")
+    out.print(str(found))
     for sheet in found.sheets:
         table = Table(title=sheet.title, title_justify="left")
         for i, column in enumerate(sheet.columns):

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from .._core import __version__
 from ..errors import InputError, listed
 from ..output import staged
 from .files import ANSWERS, DIAGNOSIS, RESULTS, Folder, read, seal_of
@@ -19,6 +20,11 @@ class Opening:
     seal: str
     seed: int
     cases: tuple[Scored, ...]
+
+    def __str__(self) -> str:
+        return (
+            f"{len(self.cases)} cases, seed {self.seed}, mre-core {__version__}; the seal holds: {self.seal}"
+        )
 
     @property
     def sheets(self) -> list[Sheet]:

@@ -19,6 +19,8 @@ class Scored:
     strength: float
     noise: str
     velocity: str
+    displacement_noise: float
+    """Rms in mm."""
     excitation: str
     reached: bool
     """False where the base absorbs the effect whatever its size, so that nothing is left to be found."""
@@ -78,6 +80,7 @@ def scored(case: str, answer: Mapping[str, Any], said: Mapping[str, Any]) -> Sco
         / truth["noise_rms"],
         noise=planned["noise"],
         velocity=planned["velocity"],
+        displacement_noise=planned["displacement_noise"],
         excitation="short" if planned["samples"] else planned["excitation"],
         reached=truth["reached"],
         verdict=found["verdict"] if found else "failed",

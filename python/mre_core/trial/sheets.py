@@ -49,6 +49,7 @@ def sheets_of(cases: Sequence[Scored]) -> list[Sheet]:
         Without those that would be empty.
     """
     single = [c for c in cases if len(c.effects) == 1 and c.counted and c.effects != ("unknown",)]
+    nulls = [c for c in cases if not c.effects]
     groups: list[tuple[str, Callable[[Scored], str]]] = [
         ("effect", lambda c: c.effects[0]),
         ("strength", strength_of),
@@ -72,7 +73,8 @@ def sheets_of(cases: Sequence[Scored]) -> list[Sheet]:
             (c for c in cases if c.effects == ("unknown",)),
             lambda c: c.laws[0],
         ),
-        _nulls([c for c in cases if not c.effects]),
+        _nulls("nulls", "noise", nulls, lambda c: c.noise),
+        _nulls("nulls_by_channels", "channels", nulls, _channels),
         _parameters(cases),
         _held_out(cases),
     ]
@@ -170,15 +172,20 @@ def _kinds(name: str, title: str, what: str, cases: Iterable[Scored], key: Calla
     return Sheet(name, title, (what, "cases", "outcome", "named"), tuple(rows), (0, 2, 3))
 
 
-def _nulls(cases: Sequence[Scored]) -> Sheet:
+def _channels(case: Scored) -> str:
+    clean = "exact displacement" if case.displacement_noise == 0 else "noisy displacement"
+    return f"{clean}, velocity {case.velocity}"
+
+
+def _nulls(name: str, what: str, cases: Sequence[Scored], key: Callable[[Scored], str]) -> Sheet:
     rows = []
-    for noise, members in [*_grouped(cases, lambda c: c.noise).items(), ("all", list(cases))]:
+    for group, members in [*_grouped(cases, key).items(), ("all", list(cases))]:
         false = [c for c in members if c.outcome.kind == "false"]
         names = "; ".join(sorted(", ".join(c.outcome.named) or c.verdict for c in false))
-        rows.append((noise, str(len(members)), str(len(false)), str(Rate(len(false), len(members))), names))
-    title = "Nothing concealed: false discoveries by kind of noise"
-    columns = ("noise", "cases", "false", "share", "named")
-    return Sheet("nulls", title, columns, tuple(rows) if cases else (), (0, 4))
+        rows.append((group, str(len(members)), str(len(false)), str(Rate(len(false), len(members))), names))
+    title = f"Nothing concealed: false discoveries by {what}"
+    columns = (what, "cases", "false", "share", "named")
+    return Sheet(name, title, columns, tuple(rows) if cases else (), (0, 4))
 
 
 def _parameters(cases: Sequence[Scored]) -> Sheet:
