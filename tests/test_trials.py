@@ -1,7 +1,7 @@
 """A short trial of the diagnosis: it may not get worse than it was when its rates were measured.
 
-The floors follow from those rates: of a tool that is as good as the lower end of Wilson's interval, one trial in
-a thousand falls below.
+The floors follow from those rates: of a tool that is as good as the lower end of Wilson's interval, one trial
+in a thousand falls below.
 """
 
 import pytest
