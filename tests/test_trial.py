@@ -14,7 +14,7 @@ import pytest
 from mre_core.trial import Case, make_trial, open_trial, run_trial
 from rig import Cli, command, everything_in
 
-PLAIN = Case((), (), "kelvin_voigt", 0.0, "white", "given", "rich", 2000, 0.01, 0.0, 1)
+PLAIN = Case((), (), "kelvin_voigt", 0.0, "white", "given", "rich", 2000, 0.01, 0.0, 11)
 HEAVY = Case(("inertia",), ("mass",), "kelvin_voigt", 3.0, "white", "given", "rich", 4000, 0.01, 0.0, 2)
 Change = Callable[[Path], object]
 
