@@ -10,8 +10,8 @@ case is kept for the prediction.
 import argparse
 import os
 import sys
-import warnings
 from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
 from multiprocessing import get_context
 from pathlib import Path
 
@@ -23,29 +23,30 @@ def main() -> None:
     )
     parser.add_argument("--cases", type=int, default=40)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--samples", type=int, default=6000, help="of each case, shorter than in a trial")
     parser.add_argument("--workers", type=int, default=os.cpu_count())
     parser.add_argument("--out", type=Path, help="write the table to this file, too")
     options = parser.parse_args()
     for library in ("OPENBLAS", "OMP", "MKL"):
         os.environ[f"{library}_NUM_THREADS"] = "1"  # read when NumPy is imported
     from mre_core.trial import standard
-    from race import raced
+    from race import quiet, raced
     from table import table, versions
 
-    cases = standard(options.cases, options.seed)
+    planned = standard(options.cases, options.seed)
+    cases = [replace(case, samples=min(case.samples or options.samples, options.samples)) for case in planned]
     rows = []
-    with ProcessPoolExecutor(options.workers, mp_context=get_context("spawn"), initializer=_quiet) as pool:
+    with ProcessPoolExecutor(options.workers, mp_context=get_context("spawn"), initializer=quiet) as pool:
         for i, found in enumerate(pool.map(raced, cases), 1):
             rows += found
             print(f"{i} of {len(cases)}", file=sys.stderr, flush=True)
-    text = f"{len(cases)} cases of the standard trial, seed {options.seed}; {versions()}.\n\n{table(rows)}\n"
+    text = (
+        f"{len(cases)} cases of the standard trial, seed {options.seed}, {options.samples} samples each;"
+        f" {versions()}.\n\n{table(rows)}\n"
+    )
     print(text)
     if options.out:
         options.out.write_text(text, encoding="utf-8")
-
-
-def _quiet() -> None:
-    warnings.simplefilter("ignore")
 
 
 if __name__ == "__main__":

@@ -38,6 +38,6 @@ def fitted(recordings: list[Recording], name: str) -> Base:
     return Base(Model(name, found.model.levels))
 
 
-def noise_free(recordings: list[Recording], base: Base) -> tuple[Array, Array]:
+def left_over(recordings: list[Recording], base: Base) -> tuple[Array, Array]:
     """What is left of the force, and the Jacobian."""
     return force_of(recordings) - base.force(recordings), base.jacobian(recordings)

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from base import fitted, noise_free
+from base import fitted, left_over
 from dictionary import Option, options
 from methods import Answer, said
 from problem import Array, Problem
@@ -40,7 +40,7 @@ def prepare(problem: Problem) -> Prepared:
     peak = float(np.max(np.abs(forces)))
     learnt = options(problem.train, forces, places, count, peak)
     shown = options([problem.test], test_forces, [middle], count, peak)
-    rest, jacobian = noise_free(problem.train, base)
+    rest, jacobian = left_over(problem.train, base)
     scale = np.linalg.norm(jacobian, axis=0)
     q, r = np.linalg.qr(jacobian / scale)
     stacked, names, groups = _stack(learnt)

@@ -1,8 +1,10 @@
 """Rivals that choose no columns: NARX (SysIdentPy) and symbolic regression (gplearn)."""
 
 import numpy as np
-from base import fitted, noise_free
+from base import fitted, left_over
+from choosing import prepare
 from methods import Answer, said
+from mre_core import Recording
 from problem import Array, Problem, force_of
 
 _LARGEST = 6000
@@ -32,23 +34,22 @@ def narx(problem: Problem) -> Answer:
     return Answer(None, "", size * np.interp(t, t[::step], found))
 
 
-def _inputs(recordings: list, step: int) -> Array:
+def _inputs(recordings: list[Recording], step: int) -> Array:
     return np.concatenate(
         [np.column_stack([r.displacement[::step], np.asarray(r.velocity)[::step]]) for r in recordings]
     )
 
 
-def _forces(recordings: list, step: int) -> Array:
+def _forces(recordings: list[Recording], step: int) -> Array:
     return np.concatenate([np.asarray(r.force)[::step, None] for r in recordings])
 
 
 def symbolic(problem: Problem) -> Answer:
     """Genetic programming on what the base leaves; an expression is named by the column that it resembles."""
-    from choosing import prepare
     from gplearn.genetic import SymbolicRegressor
 
     base = fitted(problem.train, problem.case.base)
-    rest, _ = noise_free(problem.train, base)
+    rest, _ = left_over(problem.train, base)
     x, scale = _features(problem.train, None)
     step = max(1, len(rest) // _LARGEST)
     size = float(np.std(rest))
@@ -71,7 +72,7 @@ def symbolic(problem: Problem) -> Answer:
     return Answer(named, said(named), test)
 
 
-def _features(recordings: list, scale: Array | None) -> tuple[Array, Array]:
+def _features(recordings: list[Recording], scale: Array | None) -> tuple[Array, Array]:
     parts = []
     for r in recordings:
         v = np.asarray(r.velocity)

@@ -1,5 +1,6 @@
 """All methods on one case."""
 
+import warnings
 from functools import partial
 from importlib.util import find_spec
 
@@ -32,3 +33,8 @@ def raced(case: Case) -> list[Row]:
     """Let every method answer to one case."""
     problem, reached = problem_of(case)
     return [tried(name, method, problem, reached) for name, method in present().items()]
+
+
+def quiet() -> None:
+    """Leave out the warnings of all packages."""
+    warnings.simplefilter("ignore")
