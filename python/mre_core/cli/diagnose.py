@@ -29,6 +29,9 @@ if TYPE_CHECKING:
     show_default=True,
     help="Chance of naming something where nothing is missing.",
 )
+@click.option(
+    "--without", multiple=True, metavar="EFFECT", help="Rule an effect out; may be given several times."
+)
 @click.option("--seed", type=WHOLE, help="Same seed, same result.")
 @click.option("--cut", metavar="START:STOP", help="Keep this part of every recording, in s.")
 @click.option("--exclude", metavar="PARTS", help="start_transient, stop_transient or both, with a comma.")

@@ -16,6 +16,7 @@ from .arguments import spread
 from .demo import demo
 from .diagnose import diagnose
 from .identify import identify
+from .next_test import next_test
 from .simulate import simulate
 from .trial import trial
 
@@ -34,7 +35,7 @@ def cli() -> None:
     """  # noqa: D301  # \b keeps the lines
 
 
-for command in (identify, diagnose, simulate, demo, trial):
+for command in (identify, diagnose, next_test, simulate, demo, trial):
     cli.add_command(command)
 
 

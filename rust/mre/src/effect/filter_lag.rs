@@ -45,8 +45,7 @@ fn filtered(step: f64, input: &[f64], pole: Complex<f64>, weight: Complex<f64>) 
     let mut out = Vec::with_capacity(input.len());
     out.push((weight * z).re);
     for i in 1..input.len() {
-        let entering =
-            early * input[i - 1] + late * input[i] + curved[0] * bend[i - 1] + curved[1] * bend[i];
+        let entering = early * input[i - 1] + late * input[i] + curved[0] * bend[i - 1] + curved[1] * bend[i];
         z = z * decay + entering;
         out.push((weight * z).re);
     }

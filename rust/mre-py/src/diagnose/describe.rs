@@ -1,65 +1,11 @@
-//! The diagnosis: recordings in, JSON and force histories out.
+//! A diagnosis as JSON.
 
-use mre::assembly::{Assembly, Base, Campaign};
-use mre::diagnose::{self, Diagnosis, Estimate, Estimates, Place, Proof};
+use mre::assembly::{Assembly, Base};
+use mre::diagnose::{self, Diagnosis, Estimate, Estimates, NextTest, On, Place, Proof, Prospect, Unknown};
 use mre::effect::Effect;
-use mre::error::Result;
-use numpy::PyArray1;
-use pyo3::prelude::*;
 use serde_json::{Value, json};
 
-use crate::device::{self, Levels};
-use crate::effects::law_of;
-use crate::error::to_python;
-use crate::recording::Recording;
-use crate::run::in_pool;
-
-type Forces<'py> = Vec<Bound<'py, PyArray1<f64>>>;
-
-/// Diagnose recordings: `(JSON, base force and final force of every recording)`.
-///
-/// `groups` are the places of recordings that share parameters of the model. Where `held` has levels, the
-/// model keeps them; where `given` has a force for every recording, that force is the base instead of the
-/// model. `base_effects` are `(id, law, shapes to start from)` of effects that belong to the base.
-#[pyfunction]
-#[pyo3(signature = (recordings, model, groups, *, false_alarm, seed, held=None, given=None, base_effects=Vec::new(), threads=None))]
-#[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)]
-pub(crate) fn diagnose_recordings<'py>(
-    py: Python<'py>,
-    recordings: Vec<Recording>,
-    model: &str,
-    groups: Vec<Vec<usize>>,
-    false_alarm: f64,
-    seed: u64,
-    held: Option<Levels>,
-    given: Option<Vec<Vec<f64>>>,
-    base_effects: Vec<(String, String, Vec<f64>)>,
-    threads: Option<i64>,
-) -> PyResult<(String, Forces<'py>, Forces<'py>)> {
-    let recordings: Vec<_> = recordings.into_iter().map(|r| r.inner).collect();
-    let held = held.map(|levels| device::device(model, levels)).transpose()?;
-    let own = base_effects
-        .into_iter()
-        .map(|(id, law, shapes)| Ok((law_of(&id, &law)?, shapes)))
-        .collect::<PyResult<Vec<_>>>()?;
-    let (result, _) = in_pool(py, threads, None, true, |_| -> Result<(String, Histories, Histories)> {
-        let campaign = Campaign::new(recordings.clone())?;
-        let base = match (held, given) {
-            (Some(device), _) => Base::Held(device),
-            (None, Some(force)) => Base::Given(force),
-            (None, None) => Base::fitted(&recordings, model, &groups)?,
-        };
-        let found = diagnose::run(&campaign, &base, &own, false_alarm, seed);
-        Ok((describe(&found, &base, own.len()).to_string(), found.base_force, found.final_force))
-    })?;
-    let (text, base, last) = result.map_err(to_python)?;
-    let arrays = |forces: Histories| forces.into_iter().map(|force| PyArray1::from_vec(py, force)).collect();
-    Ok((text, arrays(base), arrays(last)))
-}
-
-type Histories = Vec<Vec<f64>>;
-
-fn describe(found: &Diagnosis, base: &Base, own: usize) -> Value {
+pub(super) fn describe(found: &Diagnosis, base: &Base, own: usize) -> Value {
     let evidence = &found.evidence;
     let begun = &found.base.assembly;
     let of_base = |assembly: &Assembly, estimates: &Estimates| -> Vec<Value> {
@@ -83,7 +29,60 @@ fn describe(found: &Diagnosis, base: &Base, own: usize) -> Value {
         "approximate": evidence.approximate(),
         "candidates": diagnose::beside(&found.named.scores),
         "absorbed": found.absorbed.iter().map(absorbed).collect::<Vec<_>>(),
+        "unknown": found.unknown.as_ref().map(unknown),
+        "nearest": found.nearest,
+        "next_test": found.next_test.as_ref().map(next_test),
         "sizes": sizes(found),
+    })
+}
+
+/// What an unexplained mismatch depends on, and its map.
+fn unknown(u: &Unknown) -> Value {
+    let depends_on: Vec<Value> = u
+        .depends_on
+        .iter()
+        .map(|d| {
+            let (on, memory) = match d.on {
+                On::Displacement => ("displacement", None),
+                On::Velocity => ("velocity", None),
+                On::State => ("state", None),
+                On::Force => ("force", None),
+                On::Acceleration => ("acceleration", None),
+                On::Memory(seconds) => ("memory", Some(seconds)),
+                On::Reversal(share) => ("reversal", Some(share)),
+                On::Amplitude => ("amplitude", None),
+                On::Largest => ("largest_displacement", None),
+                On::Path => ("path", None),
+                On::Heat => ("dissipated_power", None),
+                On::Time => ("time", None),
+                On::Current => ("current", None),
+                On::Recording => ("recording", None),
+            };
+            json!({"on": on, "size": memory, "share": d.share})
+        })
+        .collect();
+    json!({
+        "depends_on": depends_on, "odd": u.odd, "dissipative": u.dissipative, "rms_N": u.rms,
+        "map": {"x_mm": u.map.displacement, "v_mm_s": u.map.velocity, "force_N": u.map.force},
+    })
+}
+
+fn next_test(found: &NextTest) -> Value {
+    let prospect = |p: &Prospect| {
+        let chances: serde_json::Map<String, Value> =
+            p.chances.iter().map(|(id, chance)| ((*id).to_owned(), json!(chance))).collect();
+        json!({
+            "excitation": p.kind.id(), "frequency_hz": p.frequency, "amplitude_mm": p.amplitude,
+            "chances": chances,
+        })
+    };
+    let l = &found.limits;
+    json!({
+        "prospects": found.prospects.iter().map(prospect).collect::<Vec<_>>(),
+        "limits": {
+            "stroke_mm": l.stroke, "speed_mm_s": l.speed, "highest_hz": l.highest, "duration_s": l.duration,
+            "rate_hz": l.rate, "current_A": l.current,
+        },
     })
 }
 
@@ -159,7 +158,7 @@ fn place(place: &Place, strength: f64) -> Value {
 }
 
 /// Parameters of the model for every group, in the model's order.
-fn levels(base: &Base, estimates: &diagnose::Estimates) -> Vec<Value> {
+fn levels(base: &Base, estimates: &Estimates) -> Vec<Value> {
     let (mut coefficient, mut shape) = (0, 0);
     base.groups()
         .iter()
