@@ -40,7 +40,7 @@ figures: install
 rivals: install
 	MATURIN_PEP517_ARGS=--locked $(BIN)/python -m pip install --quiet --no-build-isolation --editable '.[rivals]'
 	$(BIN)/python benches/rivals
-	$(BIN)/python benches/discovery --out docs/proof/rivals.md
+	$(BIN)/python benches/discovery --cases 10 --seed 7 --out docs/proof/rivals.md
 
 # The diagnosis on concealed physics: a development seed.
 trials: install
