@@ -1,6 +1,7 @@
 """The simulator of concealed physics keeps its promises."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -70,6 +71,14 @@ def test_a_size_that_the_base_absorbs_is_reported() -> None:
     campaign = make_campaign("cubic_stiffness", "cubic", "sinh", seed=1)
     assert not campaign.reached
     assert campaign.unexplained_rms < campaign.noise_rms
+
+
+def test_a_stop_that_is_never_reached_is_reported() -> None:
+    at = bench("kelvin_voigt", "end_stop")
+    far = replace(at.rig(), stroke=100.0)
+    found = at.size_for(drawn_law("end_stop", "two_sided", np.random.default_rng(2), far), 1.0)
+    assert not found.reached
+    assert found.left < 1e-6 * rms([view.force for view in at.bare])
 
 
 def test_the_seed_decides_everything() -> None:
