@@ -5,8 +5,11 @@ Units everywhere: millimetre, newton, second, ampere, degree Celsius.
 
 from ._core import MreError, Problem, Recording, __version__, inertia_weight, models
 from .asktell import AskTell
+from .batches import batch, plot_parameters, read_results
 from .certificate import Certificate, certificate
 from .chunks import read_chunks
+from .current_laws.fit import LawFit, fit_laws
+from .current_laws.law import Dependence, Law
 from .diagnose import diagnose
 from .diagnosis import Diagnosis
 from .effects import Effect
@@ -14,6 +17,7 @@ from .errors import ExtrapolationWarning, InputError, UnitAssumedWarning
 from .fits import exact, hybrid
 from .identify import Identification, identify
 from .load import from_dataframe, load
+from .loops import LoopTable, loops
 from .measure import Fit
 from .model import Level, Model, simulate
 from .results import Parameter, StopReason, SwarmResult
@@ -24,6 +28,7 @@ __all__ = [
     "AskTell",
     "Bootstrap",
     "Certificate",
+    "Dependence",
     "Diagnosis",
     "Effect",
     "Estimate",
@@ -31,7 +36,10 @@ __all__ = [
     "Fit",
     "Identification",
     "InputError",
+    "Law",
+    "LawFit",
     "Level",
+    "LoopTable",
     "Model",
     "MreError",
     "Parameter",
@@ -44,20 +52,25 @@ __all__ = [
     "UnitAssumedWarning",
     "__version__",
     "afsa",
+    "batch",
     "bootstrap",
     "certificate",
     "diagnose",
     "exact",
+    "fit_laws",
     "from_dataframe",
     "hybrid",
     "identify",
     "inertia_weight",
     "load",
+    "loops",
     "mafsa",
     "models",
+    "plot_parameters",
     "profile",
     "pso",
     "read_chunks",
+    "read_results",
     "simulate",
     "uncertainty",
 ]

@@ -13,11 +13,15 @@ import click
 from .. import __version__
 from ..errors import MreError, one_line
 from .arguments import spread
+from .batch import batch
 from .demo import demo
 from .diagnose import diagnose
 from .identify import identify
+from .laws import laws
+from .loops import loops
 from .next_test import next_test
 from .simulate import simulate
+from .study import study
 from .trial import trial
 
 
@@ -31,11 +35,14 @@ def cli() -> None:
       mre-core demo
       mre-core identify test.csv --model sinh --out result
       mre-core diagnose test.csv --base sinh --out result
+      mre-core loops test.csv --model result/model.json --out loops
       mre-core simulate result/model.json earthquake.csv --out predicted.csv
+      mre-core laws *.csv --model sinh --out result
+      mre-core batch recordings --model sinh --out results
     """  # noqa: D301  # \b keeps the lines
 
 
-for command in (identify, diagnose, next_test, simulate, demo, trial):
+for command in (identify, diagnose, loops, laws, next_test, batch, simulate, demo, study, trial):
     cli.add_command(command)
 
 

@@ -8,7 +8,11 @@ import click
 @click.command("next-test")
 @click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
 @click.option(
-    "--out", required=True, type=click.Path(path_type=Path), metavar="CSV", help="File for the command signal."
+    "--out",
+    required=True,
+    type=click.Path(path_type=Path),
+    metavar="CSV",
+    help="File for the command signal.",
 )
 @click.option("--stroke", type=float, help="Largest displacement, mm.")
 @click.option("--speed", type=float, help="Largest speed, mm/s.")

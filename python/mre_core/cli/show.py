@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
 OnLevel = Callable[[int, int, float | None], None]
 OnProgress = Callable[[int, int, float], None]
+OnItems = Callable[[int, int, int], None]
 
 _MOST = 12
 """Parameters of an effect that are shown; those of the measurement are several a recording."""
@@ -55,6 +56,34 @@ def progress(iterations: int, *, quiet: bool) -> Iterator[tuple[OnLevel, OnProgr
 
     with bar:
         yield on_level, on_progress
+
+
+@contextmanager
+def counter(what: str, *, quiet: bool) -> Iterator[OnItems]:
+    """Show how many of many items are done and how many failed, on standard error if that is a terminal."""
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+
+    err = Console(stderr=True)
+    bar = Progress(
+        TextColumn("{task.description}"),
+        BarColumn(),
+        TextColumn("{task.fields[note]}"),
+        TimeElapsedColumn(),
+        TimeRemainingColumn(),
+        console=err,
+        transient=True,
+        disable=quiet or not err.is_terminal,
+    )
+    task = bar.add_task(what, total=None, note="")
+
+    def on_items(done: int, failed: int, count: int) -> None:
+        bar.update(
+            task, completed=done + failed, total=count, note=f"{done} done, {failed} failed of {count}"
+        )
+
+    with bar:
+        yield on_items
 
 
 @contextmanager
