@@ -19,6 +19,8 @@ const TRIAL_SAMPLES: usize = 4_000;
 pub struct Derived {
     /// Velocity in mm/s.
     pub velocity: Vec<f64>,
+    /// The displacement that this is the slope of, mm.
+    pub displacement: Vec<f64>,
     /// Length of the window in s.
     pub window: f64,
 }
@@ -29,10 +31,13 @@ pub struct Derived {
 /// Never for at least five samples of equal count in both slices.
 pub fn from_displacement(time: &[f64], displacement: &[f64]) -> Derived {
     let half = best_half_width(time, displacement);
-    let velocity =
-        (0..time.len()).into_par_iter().map(|i| Local::fit(time, displacement, i, half).slope).collect();
+    let local = |i: usize| {
+        let local = Local::fit(time, displacement, i, half);
+        (local.slope, local.value)
+    };
+    let (velocity, displacement) = (0..time.len()).into_par_iter().map(local).unzip();
     let step = (time[time.len() - 1] - time[0]) / (time.len() - 1) as f64;
-    Derived { velocity, window: 2.0 * half as f64 * step }
+    Derived { velocity, displacement, window: 2.0 * half as f64 * step }
 }
 
 fn best_half_width(time: &[f64], displacement: &[f64]) -> usize {

@@ -35,6 +35,7 @@ impl Campaign {
             }
             evenly_sampled(recording)?;
         }
+        let recordings: Vec<Arc<Recording>> = recordings.into_par_iter().map(of_one_motion).collect();
         let sizes = Sizes::of(recordings.iter().map(AsRef::as_ref));
         Ok(Self::with_sizes(recordings, sizes))
     }
@@ -83,6 +84,18 @@ impl Campaign {
             sizes: &self.sizes,
         }
     }
+}
+
+/// A recording whose displacement is the one that its derived velocity is the slope of.
+///
+/// Otherwise the displacement noise, which the force does not follow, could be told from the two, and every
+/// effect with memory would seem to explain it.
+fn of_one_motion(recording: Arc<Recording>) -> Arc<Recording> {
+    if recording.velocity_window().is_none() {
+        return recording;
+    }
+    let derived = velocity::from_displacement(recording.time(), recording.displacement());
+    Arc::new(recording.seen_with(derived.displacement, recording.velocity().to_vec(), None))
 }
 
 fn current(recording: &Recording) -> Option<Vec<f64>> {

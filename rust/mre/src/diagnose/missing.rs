@@ -73,12 +73,18 @@ pub(super) struct Generic {
     gram: nalgebra::DMatrix<f64>,
     right: DVector<f64>,
     squares: Vec<f64>,
+    /// True where the velocity of a recording is derived from its displacement.
+    derived: bool,
 }
 
 impl Generic {
     /// All features together.
+    ///
+    /// Where the velocity is derived, several linear filters of the motion could be combined to one that shows the
+    /// noise of the displacement, which the force does not follow: they are left to the catalogue.
     pub(super) fn mismatch(&self) -> Mismatch {
-        self.of(|_| true)
+        let filter = |on: On| matches!(on, On::Memory(_) | On::Acceleration);
+        self.of(|on| !(self.derived && filter(on)))
     }
 
     /// Those that depend on some things.
@@ -116,6 +122,7 @@ impl Null<'_> {
             }
             columns
         });
-        Generic { on, gram, right, squares }
+        let derived = self.assembly().campaign().recordings().iter().any(|r| r.velocity_window().is_some());
+        Generic { on, gram, right, squares, derived }
     }
 }

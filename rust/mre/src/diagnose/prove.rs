@@ -8,6 +8,7 @@ use super::least_squares::{Data, Fitted, Point, refine};
 use super::noise::Noise;
 use super::normal::Rows;
 use crate::assembly::Assembly;
+use crate::kernel::filter::dot;
 use crate::recording::Recording;
 
 /// Folds of recordings.
@@ -120,11 +121,11 @@ pub(super) fn prove(assembly: &Assembly, noise: &Noise, splits: &[Split], fitted
             let errors = (0..count).map(|r| {
                 let recording = &assembly.campaign().recordings()[r];
                 let measured = recording.force().unwrap_or_default();
-                let mut error: Vec<f64> =
-                    measured.iter().zip(&point.recordings[r].force).map(|(f, m)| f - m).collect();
-                if own && split.train[r].is_empty() {
-                    fit_own(assembly, &point, r, &mut error);
-                }
+                let error: Vec<f64> = if own && !split.held_out[r].is_empty() {
+                    beside_its_own(assembly, &point, r, measured)
+                } else {
+                    measured.iter().zip(&point.recordings[r].force).map(|(f, m)| f - m).collect()
+                };
                 let sum = |rows: &Rows| {
                     let all = rows.iter().flat_map(|range| &error[range.clone()]);
                     let count = rows.iter().map(ExactSizeIterator::len).sum();
@@ -156,10 +157,14 @@ fn own_coefficients(assembly: &Assembly) -> bool {
     assembly.effects().iter().any(|e| e.of_the_measurement())
 }
 
-/// Take off what the measurement's own columns explain of the error on a recording.
-fn fit_own(assembly: &Assembly, point: &Point, r: usize, error: &mut [f64]) {
+/// Error of the device on a recording, less what the measurement's own columns explain of it.
+fn beside_its_own(assembly: &Assembly, point: &Point, r: usize, measured: &[f64]) -> Vec<f64> {
     let columns = assembly.columns(r, &assembly.physical(&point.fitted.unit));
     let device = assembly.device_coefficients();
+    let pairs = point.fitted.coefficients.iter().zip(&device);
+    let of_device: Vec<f64> = pairs.map(|(c, own)| if *own { *c } else { 0.0 }).collect();
+    let force = columns.measured(&of_device);
+    let mut error: Vec<f64> = measured.iter().zip(force).map(|(f, m)| f - m).collect();
     let own: Vec<&Vec<f64>> = columns
         .columns
         .iter()
@@ -167,17 +172,19 @@ fn fit_own(assembly: &Assembly, point: &Point, r: usize, error: &mut [f64]) {
         .filter(|(_, place)| !device[**place])
         .map(|(column, _)| column)
         .collect();
+    let size = |i: usize| dot(own[i], own[i]).sqrt().max(f64::MIN_POSITIVE);
     let gram = nalgebra::DMatrix::from_fn(own.len(), own.len(), |i, j| {
-        let ridge = if i == j { 1e-12 } else { 0.0 };
-        crate::kernel::filter::dot(own[i], own[j]) * (1.0 + ridge)
+        let ridge = if i == j { 1e-10 } else { 0.0 };
+        dot(own[i], own[j]) / (size(i) * size(j)) + ridge
     });
-    let right = nalgebra::DVector::from_fn(own.len(), |i, _| crate::kernel::filter::dot(own[i], error));
+    let right = nalgebra::DVector::from_fn(own.len(), |i, _| dot(own[i], &error) / size(i));
     if let Some(factor) = gram.cholesky() {
         let c = factor.solve(&right);
-        for (column, c) in own.iter().zip(c.iter()) {
+        for (i, column) in own.iter().enumerate() {
             for (e, value) in error.iter_mut().zip(*column) {
-                *e -= c * value;
+                *e -= c[i] / size(i) * value;
             }
         }
     }
+    error
 }
