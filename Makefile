@@ -5,11 +5,15 @@ BIN := $(VENV)/bin
 export CARGO_BUILD_JOBS ?= 2
 STAMP := $(VENV)/.installed
 
-.PHONY: demo test test-rust test-python lint bench figures rivals trials install clean
+.PHONY: demo study test test-rust test-python lint bench figures rivals trials docs install clean
 
 # The main job: identify the paper's twelve tests (a simulated replica) with both models and all swarms.
 demo: install
 	$(BIN)/mre-core demo --out demo
+
+# Section 4 of the paper, claim by claim; the figures of docs/paper.md.
+study: install
+	$(BIN)/mre-core study --out study
 
 test: test-rust test-python
 
@@ -23,18 +27,17 @@ lint: install
 	cargo fmt --all --check
 	cargo clippy --workspace --all-targets --locked -- -D warnings
 	RUSTDOCFLAGS="-D warnings" cargo doc --no-deps --locked -p mre
-	$(BIN)/ruff format --check python tests benches
-	$(BIN)/ruff check python tests benches
+	$(BIN)/ruff format --check python tests benches docs
+	$(BIN)/ruff check python tests benches docs
 	$(BIN)/mypy
 	$(BIN)/python -m mypy.stubtest mre_core._core
 
 bench:
 	cargo bench --locked -p mre-bench
 
-# The figures of the README: fits of real recordings, and the readings of the paper.
+# The figures of the README: fits of real recordings.
 figures: install
 	$(BIN)/python benches/real_fits.py
-	$(BIN)/python benches/readings.py
 
 # Other packages on the same problems, side by side; writes benches/README.md.
 rivals: install
@@ -44,6 +47,11 @@ rivals: install
 # The diagnosis on concealed physics: development seeds.
 trials: install
 	$(BIN)/python benches/discovery.py
+
+# The documentation, into the folder site: it opens from disk. A link that leads nowhere is an error.
+docs: install
+	$(BIN)/python -m pip install --quiet $$($(BIN)/python -c 'import tomllib; print(*tomllib.load(open("pyproject.toml", "rb"))["project"]["optional-dependencies"]["docs"])')
+	NO_MKDOCS_2_WARNING=1 $(BIN)/python -m mkdocs build --strict --quiet
 
 install: $(STAMP)
 
@@ -55,4 +63,4 @@ $(STAMP): pyproject.toml Cargo.toml Cargo.lock $(shell find rust python -name '*
 	touch $(STAMP)
 
 clean:
-	rm -rf $(VENV) target demo
+	rm -rf $(VENV) target demo study site

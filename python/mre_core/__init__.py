@@ -11,8 +11,11 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from ._core import MreError, Problem, Recording, __version__, inertia_weight, models
     from .asktell import AskTell
+    from .batches import batch, plot_parameters, read_results
     from .certificate import Certificate, certificate
     from .chunks import read_chunks
+    from .current_laws.fit import LawFit, fit_laws
+    from .current_laws.law import Dependence, Law
     from .dataframe import from_dataframe
     from .diagnose import diagnose
     from .diagnosis import Diagnosis
@@ -22,6 +25,7 @@ if TYPE_CHECKING:
     from .identify import Identification, identify
     from .inspection import Inspection, inspect
     from .load import load, load_all
+    from .loops import LoopTable, loops
     from .measure import Fit
     from .model import Level, Model, simulate
     from .results import Parameter, StopReason, SwarmResult
@@ -32,6 +36,7 @@ __all__ = [
     "AskTell",
     "Bootstrap",
     "Certificate",
+    "Dependence",
     "Diagnosis",
     "Effect",
     "Estimate",
@@ -40,7 +45,10 @@ __all__ = [
     "Identification",
     "InputError",
     "Inspection",
+    "Law",
+    "LawFit",
     "Level",
+    "LoopTable",
     "Model",
     "MreError",
     "Parameter",
@@ -54,10 +62,12 @@ __all__ = [
     "UnitAssumedWarning",
     "__version__",
     "afsa",
+    "batch",
     "bootstrap",
     "certificate",
     "diagnose",
     "exact",
+    "fit_laws",
     "from_dataframe",
     "hybrid",
     "identify",
@@ -65,11 +75,14 @@ __all__ = [
     "inspect",
     "load",
     "load_all",
+    "loops",
     "mafsa",
     "models",
+    "plot_parameters",
     "profile",
     "pso",
     "read_chunks",
+    "read_results",
     "simulate",
     "uncertainty",
 ]
@@ -77,8 +90,11 @@ __all__ = [
 _HOMES = {
     "_core": "MreError Problem Recording __version__ inertia_weight models",
     "asktell": "AskTell",
+    "batches": "batch plot_parameters read_results",
     "certificate": "Certificate certificate",
     "chunks": "read_chunks",
+    "current_laws.fit": "LawFit fit_laws",
+    "current_laws.law": "Dependence Law",
     "dataframe": "from_dataframe",
     "diagnose": "diagnose",
     "diagnosis": "Diagnosis",
@@ -88,6 +104,7 @@ _HOMES = {
     "identify": "Identification identify",
     "inspection": "Inspection inspect",
     "load": "load load_all",
+    "loops": "LoopTable loops",
     "measure": "Fit",
     "model": "Level Model simulate",
     "results": "Parameter StopReason SwarmResult",

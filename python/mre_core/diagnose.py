@@ -129,7 +129,7 @@ def diagnose(
         fixed=fixed,
         seed=seed,
         histories=tuple(
-            History(label, r.time, r.displacement, np.asarray(r.force), first, second)
+            History(label, r.time, r.displacement, r.velocity, np.asarray(r.force), first, second)
             for label, r, first, second in zip(names, everything, before, last, strict=True)
         ),
     )

@@ -67,6 +67,8 @@ class History:
     """s."""
     displacement: NDArray[np.float64]
     """mm."""
+    velocity: NDArray[np.float64]
+    """mm/s."""
     measured: NDArray[np.float64]
     base: NDArray[np.float64]
     """Of the base model, fitted alone."""

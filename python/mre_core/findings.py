@@ -131,10 +131,14 @@ def hidden_effects(raw: Raw) -> tuple[dict[str, Any], ...]:
 
 
 def unknown_of(raw: Raw) -> dict[str, Any] | None:
-    """What an unexplained mismatch depends on, in words too."""
+    """Describe what an unexplained mismatch depends on, in words too."""
     if raw["unknown"] is None:
         return None
-    return {"statement": words.unknown(raw["unknown"], raw["nearest"]), "nearest": raw["nearest"], **raw["unknown"]}
+    return {
+        "statement": words.unknown(raw["unknown"], raw["nearest"]),
+        "nearest": raw["nearest"],
+        **raw["unknown"],
+    }
 
 
 def next_test_of(raw: Raw) -> dict[str, Any] | None:

@@ -43,8 +43,8 @@ def command(
     proposal : mapping
         ``next_test`` of a diagnosis.
     stroke, speed, highest, duration, rate : float, optional
-        Largest displacement in mm and speed in mm/s, highest frequency in Hz, duration in s, samples a second;
-        those of the recordings by default.
+        Largest displacement in mm and speed in mm/s, highest frequency in Hz, duration in s, samples a
+        second; those of the recordings by default.
 
     Returns
     -------
@@ -97,7 +97,9 @@ def read_proposal(folder: str | os.PathLike[str]) -> Mapping[str, Any]:
     try:
         found = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
-        raise InputError(f"{path} cannot be read", wanted="a folder that `diagnose --out` has written") from error
+        raise InputError(
+            f"{path} cannot be read", wanted="a folder that `diagnose --out` has written"
+        ) from error
     proposal = found.get("next_test") if isinstance(found, dict) else None
     if not isinstance(proposal, dict) or "limits" not in proposal:
         raise InputError(

@@ -31,7 +31,7 @@ class Stage:
 
 def to_json(content: Any) -> str:
     """Write as JSON text; numbers that are not finite become null."""
-    return json.dumps(_finite(content), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+    return json.dumps(finite(content), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
 
 @contextmanager
@@ -101,11 +101,12 @@ def _unwritable(target: Path, error: OSError) -> InputError:
     )
 
 
-def _finite(content: Any) -> Any:
+def finite(content: Any) -> Any:
+    """Content with null in place of numbers that are not finite, as JSON has none."""
     if isinstance(content, float):
         return content if abs(content) < float("inf") else None
     if isinstance(content, dict):
-        return {key: _finite(value) for key, value in content.items()}
+        return {key: finite(value) for key, value in content.items()}
     if isinstance(content, list | tuple):
-        return [_finite(value) for value in content]
+        return [finite(value) for value in content]
     return content

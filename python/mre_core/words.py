@@ -118,10 +118,12 @@ def unknown(found: Mapping[str, Any], nearest: Sequence[str]) -> str:
     odd, loss = found["odd"], found["dissipative"]
     shape = "odd" if odd > 0.8 else "even" if odd < 0.2 else "neither odd nor even"
     energy = "takes energy out" if loss > 0.5 else "gives energy" if loss < -0.5 else "mostly stores energy"
-    told = f" The nearest effects of the catalogue, {listed(nearest)}, leave too much of it." if nearest else ""
+    told = (
+        f" The nearest effects of the catalogue, {listed(nearest)}, leave too much of it." if nearest else ""
+    )
     return (
-        f"A force of about {found['rms_N']:.3g} N rms is unexplained: {on}; over displacement and velocity it is"
-        f" {shape} and {energy}.{told}"
+        f"A force of about {found['rms_N']:.3g} N rms is unexplained: {on}; over displacement and velocity"
+        f" it is {shape} and {energy}.{told}"
     )
 
 
@@ -140,7 +142,9 @@ EXCITATIONS = {
 def next_test(best: Mapping[str, Any], separates: Sequence[str], limits: Mapping[str, Any]) -> str:
     """Say which test would resolve what is in doubt."""
     signal = EXCITATIONS[best["excitation"]].format(**best)
-    return f"{signal}, {limits['duration_s']:.3g} s long, is expected to show or to rule out {listed(separates)}"
+    return (
+        f"{signal}, {limits['duration_s']:.3g} s long, is expected to show or to rule out {listed(separates)}"
+    )
 
 
 def interval(low: float | None, high: float | None) -> str:

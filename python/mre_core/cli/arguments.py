@@ -32,17 +32,24 @@ class Whole(click.types.IntParamType):
 WHOLE = Whole()
 
 _PAIRS = ("--map", "--set", "--read")
+_FILES = ("--recordings",)
+_MOST_SEEDS = 1_000_000
+
+
+def _keys(option: str) -> Collection[str]:
+    """Tell what may stand before the equals sign."""
+    return ReadOptions._fields if option == "--read" else ROLES
 
 
 def spread(arguments: Sequence[str]) -> list[str]:
-    """Let ``--map a=b c=d`` stand for ``--map a=b --map c=d``."""
+    """Let ``--map a=b c=d`` stand for ``--map a=b --map c=d``, and ``--recordings`` take several files."""
     out: list[str] = []
     option = ""
     for argument in arguments:
         role = argument.partition("=")[0]
         if argument.startswith("-"):
-            option = argument if argument in _PAIRS else ""
-        elif option and role in (ReadOptions._fields if option == "--read" else ROLES) and "=" in argument:
+            option = argument if argument in (*_PAIRS, *_FILES) else ""
+        elif option in _FILES or (option and role in _keys(option) and "=" in argument):
             if out[-1] != option:
                 out.append(option)
         else:
@@ -181,6 +188,19 @@ def read_interval(text: str) -> tuple[float | None, float | None]:
         return interval[0], interval[1]
     except ValueError:
         raise InputError(f"--cut {text}", wanted="--cut START:STOP in seconds, either may be empty") from None
+
+
+def read_seeds(text: str) -> list[int]:
+    """Read ``FIRST:END`` as whole numbers, the end left out."""
+    first, colon, end = text.partition(":")
+    try:
+        seeds = list(range(int(first), int(end)))
+        if not colon or not 0 < len(seeds) <= _MOST_SEEDS:
+            raise ValueError
+        return seeds
+    except (ValueError, OverflowError, MemoryError):
+        wanted = f"--seeds FIRST:END with two whole numbers, 1 to {_MOST_SEEDS} seeds"
+        raise InputError(f"--seeds {text}", wanted=wanted) from None
 
 
 def unique_names(names: Sequence[str]) -> list[str]:

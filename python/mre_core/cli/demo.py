@@ -125,7 +125,7 @@ def _print(out: Any, results: Results) -> None:
 
 def _write(stage: Any, recordings: list[Any], results: Results) -> None:
     """Write the recordings, one table, and the figures of the paper that the campaign can show."""
-    from ..plot import plot_convergence, plot_fit
+    from ..plots import plot_convergence, plot_fit, plot_loops, save
 
     rows = [
         {
@@ -145,6 +145,8 @@ def _write(stage: Any, recordings: list[Any], results: Results) -> None:
             for t, x, f in zip(recording.time, recording.displacement, recording.force, strict=True):
                 file.write(f"{t:.9g},{x:.7g},{f:.7g},{recording.current:g}\n")
         model = results[recording.name, "sinh", "mafsa"].model
-        plot_fit(model, recording).savefig(stage.path(f"fit_{recording.name}.png"), dpi=110)
+        save(plot_fit(model, recording), stage.path(f"fit_{recording.name}.png"))
     runs = {o: results["1A-1Hz-4mm", "sinh", o].result for o in _OPTIMIZERS}
-    plot_convergence(runs).savefig(stage.path("convergence_1A-1Hz-4mm.png"), dpi=110)
+    save(plot_convergence(runs), stage.path("convergence_1A-1Hz-4mm.png"))
+    save(plot_loops(recordings, by="amplitude"), stage.path("loops_by_amplitude.png"))
+    save(plot_loops(recordings, by="current"), stage.path("loops_by_current.png"))

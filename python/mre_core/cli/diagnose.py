@@ -90,13 +90,13 @@ def diagnose(
 
 def _write(stage: "Stage", found: "Diagnosis") -> None:
     """Verdict, both models, forces by sample, and the page for a person."""
-    from ..report import report
+    from ..report import report_diagnosis
 
     stage.write_json("diagnosis.json", found.to_dict())
     stage.write_json("base_model.json", found.base_model.to_dict())
     stage.write_json("model.json", found.model.to_dict())
     _write_residuals(stage.path("residuals.csv"), found.histories)
-    stage.path("report.html").write_text(report(found), encoding="utf-8")
+    stage.path("report.html").write_text(report_diagnosis(found), encoding="utf-8")
 
 
 def _write_residuals(path: Path, histories: "tuple[History, ...]") -> None:

@@ -136,15 +136,18 @@ def _more(
 
 
 def _write(stage: Any, found: Any, more: Any, loaded: list[Any], *, figures: bool) -> None:
-    """``model.json``, ``identification.json`` and one figure a recording."""
+    """Write ``model.json``, ``identification.json``, ``report.html`` and one figure a recording."""
     from ..describe import describe
+    from ..report import report_identification
 
     stage.write_json("model.json", found.model.to_dict() | {"interrupted": found.interrupted})
     stage.write_json("identification.json", describe(found, *more))
+    page = report_identification(found, loaded, *more)
+    stage.path("report.html").write_text(page, encoding="utf-8")
     if not figures:
         return
-    from ..plot import plot_fit
+    from ..plots import plot_fit, save
 
     for recording, name in zip(loaded, unique_names([r.name for r in loaded]), strict=True):
         if any(fit.recording == recording.name for fit in found.fits):
-            plot_fit(found.model, recording).savefig(stage.path(f"fit_{name}.png"), dpi=110)
+            save(plot_fit(found.model, recording), stage.path(f"fit_{name}.png"))

@@ -8,6 +8,7 @@ from contextlib import contextmanager
 
 OnLevel = Callable[[int, int, float | None], None]
 OnProgress = Callable[[int, int, float], None]
+OnItems = Callable[[int, int, int], None]
 
 EVERY = 30.0
 """Seconds between two lines; work that is shorter says nothing."""
@@ -39,6 +40,52 @@ def progress(iterations: int, *, quiet: bool) -> Iterator[tuple[OnLevel, OnProgr
             yield calls
     else:
         yield _lines(iterations)
+
+
+@contextmanager
+def counter(what: str, *, quiet: bool) -> Iterator[OnItems]:
+    """Show how many of many items are done and how many failed.
+
+    Parameters
+    ----------
+    what : str
+        What is being done.
+    quiet : bool
+        Show nothing.
+
+    Yields
+    ------
+    on_items : callable
+        To be called with (done, failed, count).
+    """
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+
+    err = Console(stderr=True)
+    bar = Progress(
+        TextColumn("{task.description}"),
+        BarColumn(),
+        TextColumn("{task.fields[note]}"),
+        TimeElapsedColumn(),
+        TextColumn("left:"),
+        TimeRemainingColumn(),
+        console=err,
+        transient=True,
+        disable=quiet or not err.is_terminal,
+    )
+    task = bar.add_task(what, total=None, note="")
+    said = time.monotonic()
+
+    def on_items(done: int, failed: int, count: int) -> None:
+        nonlocal said
+        note = f"{done} done, {failed} failed of {count}"
+        bar.update(task, completed=done + failed, total=count, note=note)
+        if not quiet and not err.is_terminal and time.monotonic() - said >= EVERY:
+            said = time.monotonic()
+            _say(f"{what}: {note}")
+
+    with bar:
+        yield on_items
 
 
 @contextmanager

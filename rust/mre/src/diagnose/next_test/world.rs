@@ -31,7 +31,7 @@ impl World {
             time: signal.time.clone(),
             displacement: signal.displacement.clone(),
             velocity: None,
-            force: Some(force.unwrap_or_else(|| vec![0.0; signal.time.len()])),
+            force: Some(force.unwrap_or_else(|| elastic(known, signal))),
             simulated: None,
             current,
             temperature: like.temperature().clone(),
@@ -81,6 +81,12 @@ impl World {
         let force = assembly.columns(last, &assembly.physical(&unit)).measured(&coefficients);
         force.iter().all(|f| f.is_finite()).then_some(force)
     }
+}
+
+/// A force of the right size, until there is a better one.
+fn elastic(known: &Campaign, signal: &Signal) -> Vec<f64> {
+    let sizes = known.sizes();
+    signal.displacement.iter().map(|x| sizes.force / sizes.displacement * x).collect()
 }
 
 /// Coefficients with zeros for what the measurement of one more recording adds.

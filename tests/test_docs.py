@@ -1,0 +1,81 @@
+"""The documentation: its blocks run, its commands exist, and its catalogue is the code's."""
+
+import re
+import shlex
+from pathlib import Path
+
+import catalogue
+import numpy as np
+import pytest
+from mre_core import _core
+from mre_core.cli.main import cli as commands
+from rig import Cli
+
+DOCS = Path(__file__).resolve().parents[1] / "docs"
+
+PAGES = sorted(DOCS.rglob("*.md"))
+BLOCK = re.compile(r"```(python|console)\n(.*?)```", flags=re.DOTALL)
+
+
+def text_of(page: Path) -> str:
+    return page.read_text(encoding="utf-8")
+
+
+def name_of(page: Path) -> str:
+    return str(page.relative_to(DOCS))
+
+
+def test_there_are_examples() -> None:
+    assert sum(bool(BLOCK.search(text_of(page))) for page in PAGES) >= 4
+
+
+@pytest.mark.parametrize("page", [p for p in PAGES if BLOCK.search(text_of(p))], ids=name_of)
+def test_blocks_run_in_their_order(
+    page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cli: Cli
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    known = {"__name__": "docs"}
+    for kind, block in BLOCK.findall(text_of(page)):
+        if kind == "python":
+            exec(compile(block, str(page), "exec"), known)
+            continue
+        for line in block.splitlines():
+            program, *words = shlex.split(line.removeprefix("$ "))
+            assert (line[:2], program) == ("$ ", "mre-core")
+            found = [sorted(map(str, Path().glob(word))) if "*" in word else [word] for word in words]
+            status, _, err = cli(*(name for names in found for name in names))
+            assert (status, err) == (0, "")
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name_of)
+def test_commands_and_options_exist(page: Path) -> None:
+    text = text_of(page)
+    assert set(re.findall(r"mre-core +([a-z][\w-]+)", text)) <= set(commands.commands)
+    known = {option for c in commands.commands.values() for p in c.params for option in p.opts}
+    assert set(re.findall(r"(?<![\w-])(--[a-z][a-z-]+)", text)) <= known
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name_of)
+def test_links_lead_somewhere(page: Path) -> None:
+    for target in re.findall(r"\]\((?!https?:)([^)#]+)", text_of(page)):
+        assert (page.parent / target).exists() or target.endswith(catalogue.PAGE)
+
+
+def test_every_effect_has_its_section() -> None:
+    rows = _core.catalogue()
+    text = catalogue.page()
+    for row in rows:
+        assert f"`{row['id']}`: " in text
+        assert row["limit"] in text
+        assert f"| {row['law']} | " in text
+    ids = {row["id"] for row in rows}
+    assert text.count("\n## ") == len(ids)
+    assert set(catalogue.EXAMPLES) == ids - catalogue.NOT_OF_THE_DEVICE
+
+
+@pytest.mark.parametrize("name", catalogue.EXAMPLES)
+def test_pictures_show_their_effect(name: str) -> None:
+    _, without, with_effect = catalogue.forces(name)
+    change = np.sqrt(np.mean((with_effect - without) ** 2) / np.mean(without**2))
+    assert 0.03 < change < 2
+    assert catalogue.picture(name).startswith(b"<?xml")
