@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 export CARGO_BUILD_JOBS ?= 2
 STAMP := $(VENV)/.installed
 
-.PHONY: demo study test test-rust test-python lint bench figures rivals trials docs install clean
+.PHONY: demo study test test-rust test-python lint bench figures rivals trials proof docs install clean
 
 # The main job: identify the paper's twelve tests (a simulated replica) with both models and all swarms.
 demo: install
@@ -43,10 +43,23 @@ figures: install
 rivals: install
 	MATURIN_PEP517_ARGS=--locked $(BIN)/python -m pip install --quiet --no-build-isolation --editable '.[rivals]'
 	$(BIN)/python benches/rivals
+	$(BIN)/python benches/discovery --cases 10 --seed 7 --out docs/proof/rivals.md
 
-# The diagnosis on concealed physics: development seeds.
+# The diagnosis on concealed physics: a development seed.
 trials: install
-	$(BIN)/python benches/discovery.py
+	rm -rf trial
+	$(BIN)/mre-core trial make trial --cases 100 --seed 1
+	$(BIN)/mre-core trial run trial
+	$(BIN)/mre-core trial open trial
+
+# The tables of docs/proof.md: SEED is a judging seed that was never run.
+proof: install
+	test -n "$(SEED)"
+	$(BIN)/mre-core trial make judged --cases $(or $(CASES),600) --seed $(SEED)
+	$(BIN)/mre-core trial run judged
+	$(BIN)/mre-core trial open judged --tables docs/proof/judging
+	$(BIN)/python benches/real_proof
+	$(BIN)/python benches/proof.py
 
 # The documentation, into the folder site: it opens from disk. A link that leads nowhere is an error.
 docs: install
@@ -63,4 +76,4 @@ $(STAMP): pyproject.toml Cargo.toml Cargo.lock $(shell find rust python -name '*
 	touch $(STAMP)
 
 clean:
-	rm -rf $(VENV) target demo study site
+	rm -rf $(VENV) target demo study site trial judged

@@ -38,8 +38,8 @@ def test_identify_and_simulate_as_processes(tmp_path: Path, sinh_csv: Path) -> N
     assert (run.returncode, run.stderr) == (0, "")
     for piece in ("c0", "k0", "alpha", "beta", "F0", "N s/mm", "N/mm", "1/mm", "seed 1", "1 A", "rms / N"):
         assert piece in run.stdout
-    written = {"settings.toml", "model.json", "identification.json", "report.html", "fit_test.png"}
-    assert everything_in(out) == written
+    files = {"settings.toml", "model.json", "identification.json", "report.html", "fit_test.png"}
+    assert everything_in(out) == files
     assert (out / "fit_test.png").read_bytes().startswith(PNG)
     model, identification = read(out / "model.json"), read(out / "identification.json")
     assert (model["schema"], model["model"], model["interrupted"]) == ("mre-core/model/1", "sinh", False)
@@ -71,8 +71,8 @@ def test_demo_as_a_process(tmp_path: Path) -> None:
         assert column in run.stdout
     figures = {f"fit_{test}.png" for test in tests} | {"convergence_1A-1Hz-4mm.png"}
     figures |= {"loops_by_amplitude.png", "loops_by_current.png"}
-    tables = {f"{test}.csv" for test in tests} | {"demo.json", "settings.toml"}
-    assert everything_in(tmp_path / "demo") == tables | figures
+    other = {"demo.json", "settings.toml"}
+    assert everything_in(tmp_path / "demo") == {f"{test}.csv" for test in tests} | figures | other
     assert all((tmp_path / "demo" / figure).read_bytes().startswith(PNG) for figure in figures)
     content = read(tmp_path / "demo" / "demo.json")
     assert "simulated replica" in content["note"]
@@ -177,8 +177,8 @@ def test_existing_folder(cli: Cli, tmp_path: Path, sinh_csv: Path) -> None:
     (out / "model.json").write_text("old")
     (out / "notes.txt").write_text("mine")
     assert cli("identify", sinh_csv, *SMALL, "--out", out, "--quiet")[0] == 0
-    written = {"settings.toml", "model.json", "identification.json", "report.html", "fit_test.png"}
-    assert everything_in(out) == written | {"notes.txt"}
+    files = {"settings.toml", "model.json", "identification.json", "report.html", "fit_test.png"}
+    assert everything_in(out) == files | {"notes.txt"}
     assert read(out / "model.json")["model"] == "sinh"
     assert (out / "notes.txt").read_text() == "mine"
 

@@ -7,6 +7,7 @@ from pathlib import Path
 import catalogue
 import numpy as np
 import pytest
+from click import Group
 from mre_core import _core
 from mre_core.cli.main import cli as commands
 from rig import Cli
@@ -51,7 +52,8 @@ def test_blocks_run_in_their_order(
 def test_commands_and_options_exist(page: Path) -> None:
     text = text_of(page)
     assert set(re.findall(r"mre-core +([a-z][\w-]+)", text)) <= set(commands.commands)
-    known = {option for c in commands.commands.values() for p in c.params for option in p.opts}
+    nested = [c for g in commands.commands.values() if isinstance(g, Group) for c in g.commands.values()]
+    known = {option for c in [*commands.commands.values(), *nested] for p in c.params for option in p.opts}
     assert set(re.findall(r"(?<![\w-])(--[a-z][a-z-]+)", text)) <= known
 
 

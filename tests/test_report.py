@@ -108,6 +108,7 @@ def a_diagnosis(*, name: str = "sine", samples: int = 400, **changed: Any) -> Di
         effects=(effect,),
         where=(place | {"what": f"In '{name}' around 0.65 s: something."},),
         fit=Comparison(3.2, 1.01, 3.3, 1.02, 1.0),
+        unknown=None,
         absorbed_detail=({"id": "inertia", "up_to": 12.0, "unit": "kg", "why": "it looks like k0"},),
         next_test=None,
         p_values={"base": 0.0, "rest": 0.4, "effects": {}},

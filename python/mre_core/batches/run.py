@@ -102,9 +102,8 @@ def batch(
     from .ledger import Ledger
     from .settings import Reading, Settings
 
-    reading = Reading(
-        dict(map or {}), dict(conditions or {}), name_pattern, cut, tuple(exclude), dict(read or {})
-    )
+    of_file = (dict(map or {}), dict(conditions or {}), name_pattern)
+    reading = Reading(*of_file, cut, tuple(exclude), dict(read or {}))
     settings = Settings.of(model, base, reading, options, bootstrap)
     _check(seed, seeds, budget, workers, threads)
     items = find_items(folder, Path(out))

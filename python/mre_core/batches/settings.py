@@ -37,7 +37,7 @@ class Reading:
     def load(self, path: Path) -> Recording:
         """Read one file."""
         conditions: dict[str, Any] = dict(self.conditions)
-        found = load(path, map=self.map, name_pattern=self.name_pattern, read=self.read, **conditions)
+        found = load(path, map=self.map, name_pattern=self.name_pattern, read=self.read or None, **conditions)
         if self.cut is not None:
             found = found.cut(*self.cut)
         return found.exclude(*self.exclude) if self.exclude else found

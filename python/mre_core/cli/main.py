@@ -24,6 +24,7 @@ from .next_test import next_test
 from .schema import schema
 from .simulate import simulate
 from .study import study
+from .trial import trial
 
 
 @click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
@@ -44,7 +45,8 @@ def cli() -> None:
     """  # noqa: D301  # \b keeps the lines
 
 
-for command in (inspect, identify, diagnose, loops, laws, next_test, batch, simulate, demo, study, schema):
+COMMANDS = (inspect, identify, diagnose, loops, laws, next_test, batch, simulate, demo, study, trial, schema)
+for command in COMMANDS:
     cli.add_command(command)
 
 

@@ -116,6 +116,13 @@ def spinner(what: str, *, quiet: bool) -> Iterator[None]:
 
 
 @contextmanager
+def counted(what: str, *, quiet: bool) -> Iterator[Callable[[int, int], None]]:
+    """Show how many of many jobs are done, to be called with (done, count)."""
+    with counter(what, quiet=quiet) as on_items:
+        yield lambda done, count: on_items(done, 0, count)
+
+
+@contextmanager
 def _bar(iterations: int) -> Iterator[tuple[OnLevel, OnProgress]]:
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn

@@ -65,7 +65,7 @@ def study(
     }
     if not recordings and (given := [name for name, value in of_recordings.items() if value]):
         raise InputError(f"{given[0]} is given without recordings", wanted="--recordings FILE... beside it")
-    loaded = load_all(recordings, mapping, conditions, name_pattern, reading)
+    loaded = load_all(recordings, mapping, conditions, name_pattern, reading) if recordings else []
     if exclude is not None:
         parts = [part.strip() for part in exclude.split(",")]
         loaded = [recording.exclude(*parts) for recording in loaded]

@@ -2,19 +2,18 @@
 
 import numpy as np
 import pytest
+from mre_core.concealed.bench import Bench
+from mre_core.concealed.devices import bouc_wen_flow, drawn
+from mre_core.concealed.filters import convolved, lag, second_order
+from mre_core.concealed.kinematics import Array, rise, sine
+from mre_core.concealed.law import drawn_law
+from mre_core.concealed.laws.hysteresis import masing
+from mre_core.concealed.laws.relaxation import Springpot
+from mre_core.concealed.paths import Path, followed, played
+from mre_core.concealed.programmes import campaign_of
+from mre_core.concealed.track import Track
 from scipy.integrate import solve_ivp  # type: ignore[import-untyped]
 from scipy.special import gamma  # type: ignore[import-untyped]
-
-from .bench import Bench
-from .devices import bouc_wen_flow, drawn
-from .filters import convolved, lag, second_order
-from .kinematics import Array, rise, sine
-from .law import drawn_law
-from .laws.hysteresis import masing
-from .laws.relaxation import Springpot
-from .paths import Path, followed, played
-from .programmes import campaign_of
-from .track import Track
 
 
 def swept() -> tuple[Array, Array, float]:

@@ -104,6 +104,14 @@ def levels(lab: Lab) -> None:
         lab.record("earthquake", earthquake(lab.rng, lab.duration, lab.near(8.0)), current)
 
 
+def twelve(lab: Lab) -> None:
+    """The seed paper's campaign: 1 Hz at 2, 4 and 8 mm, at 0, 1, 2 and 3 A."""
+    for value in (0.0, 1.0, 2.0, 3.0):
+        for amplitude in (2.0, 4.0, 8.0):
+            motion = staircase(1.0, 0.0, [amplitude], lab.duration)
+            lab.record(f"sine_1Hz_{amplitude:g}mm_{value:g}A", motion, steady_current(value))
+
+
 def field(lab: Lab) -> None:
     """A current that steps, ramps up and down and swings, under sines and random motions."""
     d = lab.duration
@@ -129,6 +137,7 @@ PROGRAMMES: dict[str, Callable[[Lab], None]] = {
     "steady": steady_sines,
     "earthquakes": earthquakes,
     "levels": levels,
+    "twelve": twelve,
     "field": field,
 }
 

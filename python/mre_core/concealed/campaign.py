@@ -91,7 +91,49 @@ def make_campaign(
     temperature: bool = False,
     fine: float = FINE,
 ) -> Campaign:
-    """Simulate recordings; see README.md for the arguments."""
+    """Simulate the recordings of a device with effects that its base model lacks.
+
+    Parameters
+    ----------
+    effect : str, sequence of str or None
+        An id of `effects()`, ``"unknown"``, several of them, or nothing.
+    law : str or sequence of str
+        ``"textbook"`` or one of `laws_of(effect)`; one for each effect.
+    base : {"kelvin_voigt", "sinh", "bouc_wen"}
+        The device without effects.
+    strength : float
+        Rms that each effect alone leaves of the refitted base, over that of the noise.
+    noise : str
+        One of ``white, ar60, ar97, ar995, pink, narrow, mains, student, quantised, none``.
+    seed : int
+        Device, motions, parameters and noise are functions of it.
+    excitation : str, optional
+        ``rich`` unless the effect needs another: see README.md.
+    samples : int, optional
+        Of all recordings together; 12 s each where not given.
+    velocity : {"given", "derived"}
+        Whether a velocity is recorded.
+    rate : float or sequence of float
+        Hz; several are used in turn.
+    noise_share : float
+        Rms of the noise over that of the bare device's force.
+    displacement_noise : float
+        Rms in mm of white noise on the recorded displacement.
+    temperature : bool
+        Record an ambient temperature that tells nothing.
+    fine : float
+        Least rate of the grid of the simulation, Hz.
+
+    Returns
+    -------
+    Campaign
+        Recordings (arrays of shape (n,)) and the truth.
+
+    Raises
+    ------
+    ValueError
+        A name is not known.
+    """
     names = [] if effect is None else [effect] if isinstance(effect, str) else list(effect)
     forms = [law] * len(names) if isinstance(law, str) else list(law)
     if len(forms) != len(names):

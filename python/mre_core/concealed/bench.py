@@ -70,6 +70,9 @@ class Bench:
         unit = self.show([(law, 1.0)])
         waves = [one.force - force for one, force in zip(unit, forces, strict=True)]
 
+        if rms(waves) == 0:  # such as a stop that no motion reaches
+            return Solved(1.0, self.left(self.bare), False)
+
         def left(size: float) -> float:
             changed = [force + size * wave for force, wave in zip(forces, waves, strict=True)]
             return self.refit.unexplained(seen, changed)
