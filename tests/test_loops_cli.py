@@ -30,7 +30,7 @@ def test_table_and_files(cli: Cli, tmp_path: Path, file: Path, model: Path) -> N
     for piece in ("[a]: 3 closed cycles of 4 mm at 1 Hz", "effective stiffness", "K_eff", "+25.0 %", "N/mm"):
         assert piece in shown
     assert "by the convention displacement_extremes" in shown
-    assert everything_in(out) == {"loops.csv", "loops.json", "loops.png"}
+    assert everything_in(out) == {"loops.csv", "loops.json", "loops.png", "settings.toml"}
     with (out / "loops.csv").open(encoding="utf-8", newline="") as opened:
         rows = list(csv.DictReader(opened))
     assert [row["cycle"] for row in rows] == ["1", "2", "3", "mean"]
@@ -59,7 +59,7 @@ def test_json(cli: Cli, tmp_path: Path, file: Path) -> None:
 def test_quiet_and_without_figures(cli: Cli, tmp_path: Path, file: Path) -> None:
     options = ["--quiet", "--no-figures", "--cut", "0:2.5", "--out", str(tmp_path / "out")]
     assert cli("loops", file, *options) == (0, "", "")
-    assert everything_in(tmp_path / "out") == {"loops.csv", "loops.json"}
+    assert everything_in(tmp_path / "out") == {"loops.csv", "loops.json", "settings.toml"}
     assert len((tmp_path / "out" / "loops.csv").read_text(encoding="utf-8").splitlines()) == 1 + 2 + 1
 
 

@@ -47,7 +47,11 @@ def test_json_of_an_identification(cli: Cli, tmp_path: Path, sinh_csv: Path) -> 
 
 
 @pytest.mark.parametrize(
-    "command", ["inspect", "identify", "diagnose", "simulate", "next-test", "demo", "schema"]
+    "command",
+    [
+        *("inspect", "identify", "diagnose", "loops", "laws", "next-test", "batch", "simulate"),
+        *("demo", "study", "schema"),
+    ],
 )
 def test_help_has_an_example(cli: Cli, command: str) -> None:
     status, out, err = cli(command, "--help")

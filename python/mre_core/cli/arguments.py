@@ -36,6 +36,11 @@ _FILES = ("--recordings",)
 _MOST_SEEDS = 1_000_000
 
 
+def _keys(option: str) -> Collection[str]:
+    """Tell what may stand before the equals sign."""
+    return ReadOptions._fields if option == "--read" else ROLES
+
+
 def spread(arguments: Sequence[str]) -> list[str]:
     """Let ``--map a=b c=d`` stand for ``--map a=b --map c=d``, and ``--recordings`` take several files."""
     out: list[str] = []
@@ -44,9 +49,7 @@ def spread(arguments: Sequence[str]) -> list[str]:
         role = argument.partition("=")[0]
         if argument.startswith("-"):
             option = argument if argument in (*_PAIRS, *_FILES) else ""
-        elif option in _FILES or (
-            option and role in (ReadOptions._fields if option == "--read" else ROLES) and "=" in argument
-        ):
+        elif option in _FILES or (option and role in _keys(option) and "=" in argument):
             if out[-1] != option:
                 out.append(option)
         else:

@@ -79,6 +79,7 @@ def batch(
     from ..files import ReadOptions
     from ..output import staged
     from .progress import counter
+    from .settings import write_settings
 
     options["n_particles" if options["optimizer"] == "pso" else "n_fish"] = fish
     options |= {"max_iterations": iterations, "fixed": fixed or None}
@@ -97,8 +98,9 @@ def batch(
             on_progress=on_progress,
             **options,
         )
-    if not no_figures:
-        with staged(out) as stage:
+    with staged(out) as stage:
+        write_settings(stage, out)
+        if not no_figures:
             _draw(stage, results)
     if not quiet:
         _print(results, out)

@@ -66,7 +66,7 @@ def laws(
     reading: tuple[str, ...],
     **options: Any,
 ) -> int:
-    """Fit RECORDINGS (CSV files) at several currents together, with laws of the parameters over the current.
+    """Fit RECORDINGS (files or folders) at several currents together, with laws over the current.
 
     A law that is not given is chosen by how well it predicts currents that are left out of the fit.
 
@@ -82,6 +82,7 @@ def laws(
     from ..measure import measure_fit
     from ..output import Stage, staged
     from .progress import spinner
+    from .settings import write_settings
 
     interval = None if cut is None else read_interval(cut)
     parts = () if exclude is None else tuple(part.strip() for part in exclude.split(","))
@@ -89,13 +90,13 @@ def laws(
 
     def read() -> "Iterator[Recording]":
         for path in recordings:  # one at a time: a campaign need not fit into memory
-            (found,) = load_all([path], mapping, conditions, name_pattern, reading)
-            found = found if interval is None else found.cut(*interval)
-            found = found.exclude(*parts) if parts else found
-            if _is_at(found, over, predict):
-                left_out.append(found)
-            else:
-                yield found
+            for found in load_all([path], mapping, conditions, name_pattern, reading):
+                found = found if interval is None else found.cut(*interval)
+                found = found.exclude(*parts) if parts else found
+                if _is_at(found, over, predict):
+                    left_out.append(found)
+                else:
+                    yield found
 
     place = staged(out) if out is not None else nullcontext()
     with place as stage:
@@ -105,7 +106,8 @@ def laws(
         if predict is not None and not left_out:
             raise InputError(f"no recording at {predict:g}", wanted=f"the {over} of some recording")
         predicted = [measure_fit(found.model, recording) for recording in left_out]
-        if isinstance(stage, Stage):
+        if isinstance(stage, Stage) and out is not None:
+            write_settings(stage, out)
             stage.write_json("model.json", found.model.to_dict())
             stage.write_json("laws.json", _content(found, predicted))
             plot_laws(found.model).savefig(stage.path("laws.png"), dpi=110)

@@ -59,6 +59,7 @@ def loops(
     from ..loops import loops as run
     from ..model import Model
     from ..output import staged
+    from .settings import write_settings
 
     given = None if model is None else Model.load(model)
     loaded = load_all(recordings, mapping, conditions, name_pattern, reading)
@@ -77,6 +78,7 @@ def loops(
     }
     if out is not None:
         with staged(out) as stage:
+            write_settings(stage, out)
             stage.write_json("loops.json", content)
             _write_csv(stage.path("loops.csv"), found)
             if not no_figures:

@@ -43,6 +43,52 @@ def progress(iterations: int, *, quiet: bool) -> Iterator[tuple[OnLevel, OnProgr
 
 
 @contextmanager
+def counter(what: str, *, quiet: bool) -> Iterator[OnItems]:
+    """Show how many of many items are done and how many failed.
+
+    Parameters
+    ----------
+    what : str
+        What is being done.
+    quiet : bool
+        Show nothing.
+
+    Yields
+    ------
+    on_items : callable
+        To be called with (done, failed, count).
+    """
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+
+    err = Console(stderr=True)
+    bar = Progress(
+        TextColumn("{task.description}"),
+        BarColumn(),
+        TextColumn("{task.fields[note]}"),
+        TimeElapsedColumn(),
+        TextColumn("left:"),
+        TimeRemainingColumn(),
+        console=err,
+        transient=True,
+        disable=quiet or not err.is_terminal,
+    )
+    task = bar.add_task(what, total=None, note="")
+    said = time.monotonic()
+
+    def on_items(done: int, failed: int, count: int) -> None:
+        nonlocal said
+        note = f"{done} done, {failed} failed of {count}"
+        bar.update(task, completed=done + failed, total=count, note=note)
+        if not quiet and not err.is_terminal and time.monotonic() - said >= EVERY:
+            said = time.monotonic()
+            _say(f"{what}: {note}")
+
+    with bar:
+        yield on_items
+
+
+@contextmanager
 def spinner(what: str, *, quiet: bool) -> Iterator[None]:
     """Show that work goes on whose length is not known, and for how long.
 
@@ -67,51 +113,6 @@ def spinner(what: str, *, quiet: bool) -> Iterator[None]:
     else:
         with _heartbeat(what):
             yield
-
-
-@contextmanager
-def counter(what: str, *, quiet: bool) -> Iterator[OnItems]:
-    """Show how many of many items are done and how many failed.
-
-    Parameters
-    ----------
-    what : str
-        What is being done.
-    quiet : bool
-        Show nothing.
-
-    Yields
-    ------
-    callable
-        To be called with (done, failed, count).
-    """
-    from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
-
-    err = Console(stderr=True)
-    said = time.monotonic()
-
-    def note(done: int, failed: int, count: int) -> str:
-        return f"{done} done, {failed} failed of {count}"
-
-    def on_line(done: int, failed: int, count: int) -> None:
-        nonlocal said
-        if not quiet and time.monotonic() - said >= EVERY:
-            said = time.monotonic()
-            _say(f"{what}: {note(done, failed, count)}")
-
-    if quiet or not err.is_terminal:
-        yield on_line
-        return
-    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.fields[note]}"))
-    times = (TimeElapsedColumn(), TextColumn("left:"), TimeRemainingColumn())
-    with Progress(*columns, *times, console=err, transient=True) as bar:
-        task = bar.add_task(what, total=None, note="")
-
-        def on_items(done: int, failed: int, count: int) -> None:
-            bar.update(task, completed=done + failed, total=count, note=note(done, failed, count))
-
-        yield on_items
 
 
 @contextmanager

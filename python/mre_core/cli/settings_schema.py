@@ -9,7 +9,7 @@ import click
 if TYPE_CHECKING:
     from pydantic import BaseModel
 
-PAIRS = ("map", "set", "read", "bounds")
+PAIRS = ("map", "set", "read", "bounds", "law")
 """Options of the form NAME=TEXT, which may be tables."""
 NOT_SETTINGS = {"config", "help", "version", "write_config"}
 

@@ -53,6 +53,7 @@ def study(
     from ..output import staged
     from ..study import FULL, QUICK
     from ..study import study as run
+    from .settings import write_settings
     from .show_study import print_study, stages
 
     of_recordings = {
@@ -72,6 +73,7 @@ def study(
         with stages() as on_progress:
             effort = QUICK if quick else FULL
             found = run(loaded or None, seed=seed, effort=effort, threads=threads, on_progress=on_progress)
+            write_settings(stage, out)
             _write(stage, found)
     print_study(found)
 

@@ -6,7 +6,6 @@ from typing import Any, Final
 
 from ..errors import InputError
 from .arrays import Series, tables_of
-from .extras import need
 from .limits import check_values
 from .matlab73 import series_73
 from .options import ReadOptions
@@ -56,7 +55,8 @@ def read(path: Path, options: ReadOptions) -> list[Table]:
 
 def _series(path: Path) -> tuple[list[Series], list[str]]:
     file = str(path)
-    scipy_io = need("scipy.io", "mat", file=file)
+    import scipy.io as scipy_io  # type: ignore[import-untyped]
+
     try:
         check_values(_unpacked(path) // 8, file)
         shapes = scipy_io.whosmat(path)

@@ -5,7 +5,6 @@ from typing import Any, Final
 
 from ..errors import InputError
 from .arrays import readable
-from .extras import need
 from .limits import check_values
 from .options import ReadOptions
 from .table import MemoryTable, NoTableError, Table, with_unit
@@ -34,8 +33,9 @@ def read(path: Path, options: ReadOptions) -> list[Table]:
         The file cannot be read or is empty.
     """
     file = str(path)
-    arrow = need("pyarrow", "parquet", file=file)
-    parquet = need("pyarrow.parquet", "parquet", file=file)
+    import pyarrow as arrow
+    import pyarrow.parquet as parquet
+
     try:
         with parquet.ParquetFile(path) as opened:
             check_values(opened.metadata.num_rows * opened.metadata.num_columns, file)
