@@ -5,11 +5,15 @@ BIN := $(VENV)/bin
 export CARGO_BUILD_JOBS ?= 2
 STAMP := $(VENV)/.installed
 
-.PHONY: demo test test-rust test-python lint bench figures rivals trials docs install clean
+.PHONY: demo study test test-rust test-python lint bench figures rivals trials proof docs install clean
 
 # The main job: identify the paper's twelve tests (a simulated replica) with both models and all swarms.
 demo: install
 	$(BIN)/mre-core demo --out demo
+
+# Section 4 of the paper, claim by claim; the figures of docs/paper.md.
+study: install
+	$(BIN)/mre-core study --out study
 
 test: test-rust test-python
 
@@ -31,19 +35,31 @@ lint: install
 bench:
 	cargo bench --locked -p mre-bench
 
-# The figures of the README: fits of real recordings, and the readings of the paper.
+# The figures of the README: fits of real recordings.
 figures: install
 	$(BIN)/python benches/real_fits.py
-	$(BIN)/python benches/readings.py
 
 # Other packages on the same problems, side by side; writes benches/README.md.
 rivals: install
 	MATURIN_PEP517_ARGS=--locked $(BIN)/python -m pip install --quiet --no-build-isolation --editable '.[rivals]'
 	$(BIN)/python benches/rivals
+	$(BIN)/python benches/discovery --cases 10 --seed 7 --out docs/proof/rivals.md
 
-# The diagnosis on concealed physics: development seeds.
+# The diagnosis on concealed physics: a development seed.
 trials: install
-	$(BIN)/python benches/discovery.py
+	rm -rf trial
+	$(BIN)/mre-core trial make trial --cases 100 --seed 1
+	$(BIN)/mre-core trial run trial
+	$(BIN)/mre-core trial open trial
+
+# The tables of docs/proof.md: SEED is a judging seed that was never run.
+proof: install
+	test -n "$(SEED)"
+	$(BIN)/mre-core trial make judged --cases $(or $(CASES),600) --seed $(SEED)
+	$(BIN)/mre-core trial run judged
+	$(BIN)/mre-core trial open judged --tables docs/proof/judging
+	$(BIN)/python benches/real_proof
+	$(BIN)/python benches/proof.py
 
 # The documentation, into the folder site: it opens from disk. A link that leads nowhere is an error.
 docs: install
@@ -60,4 +76,4 @@ $(STAMP): pyproject.toml Cargo.toml Cargo.lock $(shell find rust python -name '*
 	touch $(STAMP)
 
 clean:
-	rm -rf $(VENV) target demo site
+	rm -rf $(VENV) target demo study site trial judged

@@ -1,5 +1,5 @@
-//! MAFSA with the paper's settings on 1,000 samples: one iteration of each model, and the whole run with
-//! the sinh model on one and two threads.
+//! MAFSA with the paper's settings on 1,000 samples, on one and two threads: one iteration of each model, and
+//! the whole run with the sinh model.
 #![allow(missing_docs)] // made by the macros of criterion
 
 use std::sync::atomic::AtomicBool;
@@ -25,32 +25,30 @@ fn mafsa(problem: &Problem, iterations: usize) {
     };
     let Ok(mut swarm) = FishSwarm::new(settings, d, 1, None) else { return };
     let never = AtomicBool::new(false);
-    let mut physical = Vec::new();
-    let mut evaluate = |unit: &[f64], costs: &mut [f64]| {
-        physical.resize(unit.len(), 0.0);
-        problem.bounds().to_physical(unit, &mut physical);
-        problem.fitness(&physical, costs, &never);
-    };
+    let mut evaluate = |unit: &[f64], costs: &mut [f64]| problem.fitness_in_box(unit, costs, &never);
     run(&mut swarm, &mut evaluate, d, &Budget::default(), &mut |_| true);
 }
 
-fn iteration(c: &mut Criterion) {
-    for model in ["sinh", "bouc_wen"] {
-        let Ok(problem) = problem(model, 1_000) else { continue };
-        c.bench_function(&format!("mafsa_iteration/{model}"), |b| b.iter(|| mafsa(&problem, 1)));
-    }
-}
-
-fn whole(c: &mut Criterion) {
-    let Ok(problem) = problem("sinh", 1_000) else { return };
-    let mut group = c.benchmark_group("mafsa_run/threads");
+/// A model's swarm of some iterations on one and two threads.
+fn on_threads(c: &mut Criterion, name: &str, model: &str, iterations: usize) {
+    let Ok(problem) = problem(model, 1_000) else { return };
+    let mut group = c.benchmark_group(format!("{name}/{model}/threads"));
     for threads in [1, 2] {
         let Ok(pool) = rayon::ThreadPoolBuilder::new().num_threads(threads).build() else { continue };
         group.bench_function(BenchmarkId::from_parameter(threads), |b| {
-            b.iter(|| pool.install(|| mafsa(&problem, 300)));
+            b.iter(|| pool.install(|| mafsa(&problem, iterations)));
         });
     }
     group.finish();
+}
+
+fn iteration(c: &mut Criterion) {
+    on_threads(c, "mafsa_iteration", "sinh", 1);
+    on_threads(c, "mafsa_iteration", "bouc_wen", 1);
+}
+
+fn whole(c: &mut Criterion) {
+    on_threads(c, "mafsa_run", "sinh", 300);
 }
 
 criterion_group! {

@@ -98,13 +98,15 @@ FILES = {
     "empty file": bad_file(b"", "the file is empty", "wanted"),
     "header only": bad_file(HEADER.encode(), "line 1", "no data"),
     "binary file": bad_file(bytes(range(256)) * 40, "not a text file"),
-    "not utf-8": bad_file(instead(3, "0.01,1,2").replace(b"0.01", b"\xff"), "line 3", "0xff", "UTF-8"),
+    "not utf-8": bad_file(
+        instead(3, "0.01,1,2").replace(b"0.01", b"\xff"), "line 3, column 'time_s': found 'ÿ'"
+    ),
     "no force at all": Case(
         IDENTIFY,
         ["recording 'a'", "force is zero throughout"],
         {"a.csv": "\n".join([HEADER, *(f"{t},{np.sin(t)},0" for t in T)]).encode()},
     ),
-    "a folder": Case(["identify", ".", *IDENTIFY[2:]], [".: is a folder", "wanted"]),
+    "a folder": Case(["identify", "/proc", *IDENTIFY[2:]], ["/proc: is a folder without recordings"]),
     "missing file": Case(["identify", "b.csv", *IDENTIFY[2:]], ["b.csv: there is no such file"]),
     "second file": Case(
         ["identify", "a.csv", "b.csv", *IDENTIFY[2:]],
@@ -210,6 +212,12 @@ MODELS = {
         SIMULATE, ["a.csv: ", "no column for displacement"], {"a.csv": headed("time_s,x,force_N")}
     ),
     "simulate without out": Case(SIMULATE[:3], ["--out"]),
+    "simulate over a folder": Case(
+        [*SIMULATE[:2], ".", *SIMULATE[3:]], [".: is a folder", "one of the files"]
+    ),
+    "simulate over two recordings": Case(
+        SIMULATE, ["a.csv: holds 2 recordings: a#1, a#2"], {"a.csv": 2 * (instead(1, HEADER) + b"\n")}
+    ),
     "simulate a force": Case([*SIMULATE[:2], "model.json", *SIMULATE[3:]], ["model.json: "]),
 }
 

@@ -1,18 +1,19 @@
 """The simulator of concealed physics keeps its promises."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
-from concealed import BASES, effects, laws_of, make_campaign
-from concealed.bench import Bench, rms
-from concealed.campaign import OWN_EXCITATION
-from concealed.devices import drawn
-from concealed.law import drawn_law
-from concealed.noise import KINDS, noisy
-from concealed.programmes import PROGRAMMES, campaign_of
-from concealed.write import truth, write_campaign
+from mre_core.concealed import BASES, effects, laws_of, make_campaign
+from mre_core.concealed.bench import Bench, rms
+from mre_core.concealed.campaign import OWN_EXCITATION
+from mre_core.concealed.devices import drawn
+from mre_core.concealed.law import drawn_law
+from mre_core.concealed.noise import KINDS, noisy
+from mre_core.concealed.programmes import PROGRAMMES, campaign_of
+from mre_core.concealed.write import truth, write_campaign
 
 DISSIPATIVE = [
     "coulomb_friction",
@@ -70,6 +71,14 @@ def test_a_size_that_the_base_absorbs_is_reported() -> None:
     campaign = make_campaign("cubic_stiffness", "cubic", "sinh", seed=1)
     assert not campaign.reached
     assert campaign.unexplained_rms < campaign.noise_rms
+
+
+def test_a_stop_that_is_never_reached_is_reported() -> None:
+    at = bench("kelvin_voigt", "end_stop")
+    far = replace(at.rig(), stroke=100.0)
+    found = at.size_for(drawn_law("end_stop", "two_sided", np.random.default_rng(2), far), 1.0)
+    assert not found.reached
+    assert found.left < 1e-6 * rms([view.force for view in at.bare])
 
 
 def test_the_seed_decides_everything() -> None:

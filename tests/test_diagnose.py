@@ -67,7 +67,8 @@ def check_contract(content: dict[str, Any]) -> None:
     for detail in content["absorbed_detail"]:
         assert isinstance(detail["up_to"], float)
         assert isinstance(detail["unit"], str) and detail["why"]
-    assert content["next_test"] is None
+    assert content["next_test"] is None or content["next_test"]["separates"]
+    assert (content["unknown"] is None) == (content["verdict"] in {"adequate", "missing_physics"})
     assert isinstance(content["seed"], int)
     assert content["interrupted"] is False
     assert content["version"] == mre_core.__version__

@@ -15,13 +15,20 @@ BAD: dict[str, tuple[bytes | list[str], dict[str, object], list[str]]] = {
     "blank": (b"\n \n\n", {}, ["the file is empty"]),
     "comments only": (["# a", "# b"], {}, ["no header and no data"]),
     "header only": (["# a", HEADER, ""], {}, ["line 2: a header but no data", "wanted rows of numbers"]),
-    "binary": (b"\x89PNG\0\0\1\2", {}, ["is not a text file", "wanted comma-separated UTF-8 text"]),
-    "utf-16": ("time_s".encode("utf-16"), {}, ["is UTF-16 text"]),
-    "latin-1": (b"# a\nt [s],T [\xb0C]\n", {}, ["line 2: byte 0xb0 is not UTF-8"]),
-    "latin-1 bom": (b"\xef\xbb\xbf# a\nT [\xb0C]\n", {}, ["line 2: byte 0xb0 is not UTF-8"]),
-    "semicolons": (["time_s;force_N", "0;1"], {}, ["line 1: found semicolons", "wanted commas"]),
-    "tabs": (["time_s\tforce_N", "0\t1"], {}, ["line 1: found tabs"]),
-    "no header": (GOOD, {}, ["line 1: found numbers only, wanted a header"]),
+    "binary": (b"\x89PNG\0\0\1\2", {}, ["is not a text file", "the ending of its format"]),
+    "utf-16": ("time_s".encode("utf-16"), {}, ["line 1: a header but no data"]),
+    "bytes that are no UTF-8": (
+        b"\xef\xbb\xbf# a\nT [\xb0C]\n",
+        {},
+        ["line 2: byte 0xb0 is not utf-8", "read encoding=cp1252"],
+    ),
+    "another encoding": (
+        "t [s],T [°C]\n".encode(),
+        {"read": {"encoding": "ascii"}},
+        ["line 1: byte 0xc2 is not ascii"],
+    ),
+    "semicolons": (["time_s;force_N", "0;1"], {}, ["no column for displacement among time_s, force_N"]),
+    "no header": (GOOD, {}, ["no column for time among column 1, column 2, column 3", "mre-core inspect"]),
     "duplicate": ([HEADER + ",force_N", *GOOD], {}, ["line 1: header has force_N more than once"]),
     "quote in header": (['"time_s,force_N', *GOOD], {}, ["line 1: header cannot be read"]),
     "text": (
@@ -29,7 +36,11 @@ BAD: dict[str, tuple[bytes | list[str], dict[str, object], list[str]]] = {
         {},
         ["line 6, column 'force_N': found 'abc'", "a number"],
     ),
-    "units row": ([HEADER, "s,mm,N", *GOOD], {}, ["line 2, column 'time_s': found 's', wanted a number"]),
+    "row of no units": (
+        [HEADER, "a,b,c", *GOOD],
+        {},
+        ["line 2, column 'time_s': found 'a', wanted a number"],
+    ),
     "late comment": (
         [HEADER, *GOOD[:2], "# pause", *GOOD[2:]],
         {},
@@ -48,7 +59,11 @@ BAD: dict[str, tuple[bytes | list[str], dict[str, object], list[str]]] = {
     "underscore": ([HEADER, *GOOD[:3], "0.05,1,1_0"], {}, ["found '1_0', wanted a number"]),
     "truth": ([HEADER, *GOOD[:3], "0.05,1,True"], {}, ["found 'True', wanted a number"]),
     "long text": ([HEADER, "0,1," + "z" * 500], {}, ["found 'zzzz", "..., wanted a number"]),
-    "decimal commas": ([HEADER, "0,0,1,5,2,5"], {}, ["line 2: found 6 fields, wanted 3", "decimal point"]),
+    "decimal commas": (
+        [HEADER, "0,0,1,5,2,5"],
+        {},
+        ["line 2: found 6 fields, wanted 3", "comma between columns, decimal point"],
+    ),
     "ragged": ([HEADER, *GOOD[:4], GOOD[4] + ",9"], {}, ["line 6: found 4 fields, wanted 3"]),
     "quote": ([HEADER, *GOOD[:4], '0.5,1,"2'], {}, ["line 6: row cannot be read"]),
     "line behind quoted lines": (
@@ -122,5 +137,6 @@ def test_missing_file_and_folder(tmp_path: Path) -> None:
     with pytest.raises(mre_core.InputError) as caught:
         mre_core.load(tmp_path)
     assert (
-        str(caught.value) == f"{tmp_path}: is a folder, wanted the files in it, such as {tmp_path / '*.csv'}"
+        str(caught.value)
+        == f"{tmp_path}: is a folder, wanted one of the files in it, such as {tmp_path / '*.csv'}"
     )

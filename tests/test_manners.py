@@ -93,8 +93,17 @@ import numpy as np, mre_core
 
 def job(seed):
     t = np.arange(300) / 100
-    problem = mre_core.Problem(mre_core.Recording(t, np.sin(6 * t), np.sin(6 * t + 0.2)), "sinh")
-    return mre_core.mafsa(problem, seed=seed, max_iterations=5).fun
+    recording = mre_core.Recording(t, np.sin(6 * t), np.sin(6 * t + 0.2))
+    costs = []
+    for model in ("kelvin_voigt", "sinh", "bouc_wen"):
+        problem = mre_core.Problem(recording, model)
+        middle = (problem.lower + problem.upper) / 2
+        # One candidate stays on this thread, many share a pool.
+        costs += [problem.fitness(middle), *problem.fitness(np.tile(middle, (1000, 1)))[-2:]]
+        costs.append(mre_core.mafsa(problem, seed=seed, max_iterations=2, n_fish=10).fun)
+    # Whole generations are drawn on this thread.
+    bowl = mre_core.mafsa(lambda p: (p**2).sum(axis=1), [(-1, 1)] * 5, seed=seed, max_iterations=2)
+    return [*costs, bowl.fun]
 
 if __name__ == "__main__":
     here = [job(seed) for seed in (1, 2, 3)]  # threads have run in the parent before it is forked

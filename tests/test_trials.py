@@ -1,54 +1,46 @@
-"""A short trial of the diagnosis: concealed physics of every kind, strong enough to be named.
+"""A short trial of the diagnosis: it may not get worse than it was when its rates were measured.
 
-The floor is below the rate of the long trials in ``benches/discovery.py`` by more than the spread of so few
-cases; these seeds are neither tuned on nor judged by there.
+The floors follow from those rates: of a tool that is as good as the lower end of Wilson's interval, one trial
+in a thousand falls below.
 """
 
-import mre_core
-import numpy as np
 import pytest
-from concealed import make_campaign
+from mre_core.trial.outcomes import Scored
+from mre_core.trial.rates import Rate
+from scipy.stats import binom  # type: ignore[import-untyped]
+from short_trial import EFFECTS, NULLS, counts, short_trial
 
 SEED = 500
-CASES = [
-    ("maxwell_relaxation", "sinh"),
-    ("coulomb_friction", "kelvin_voigt"),
-    ("hysteresis", "kelvin_voigt"),
-    ("inertia", "sinh"),
-    ("asymmetric_stiffness", "kelvin_voigt"),
-    ("quadratic_damping", "sinh"),
-    ("stiffness_jump", "kelvin_voigt"),
-    ("payne_softening", "kelvin_voigt"),
-    ("end_stop", "kelvin_voigt"),
-    ("force_clipping", "sinh"),
-    ("mains_interference", "kelvin_voigt"),
-    ("force_drift", "sinh"),
-]
-FLOOR = 9
+MEASURED = Rate(49, 56), Rate(23, 24)
+"""Named right and clear, by ``tests/short_trial.py 2 3``; the seed above is not among these."""
+TAIL = 1e-3
 
 
-def diagnosed(effect: str | None, base: str, seed: int, noise: str) -> mre_core.Diagnosis:
-    made = make_campaign(effect, base=base, strength=3.0, noise=noise, seed=seed, samples=11_000)
-    recordings = [
-        mre_core.Recording(
-            r.time, r.displacement, r.force, velocity=r.velocity, current=float(r.current[0]), name=r.name
-        )
-        for r in made.recordings
-    ]
-    assert all(np.ptp(r.current) == 0 for r in made.recordings)
-    return mre_core.diagnose(recordings, base, seed=1)
+def floor(measured: Rate, cases: int) -> int:
+    return int(binom.ppf(TAIL, cases, measured.interval[0]))
 
 
-def test_strong_effects_are_named() -> None:
-    named = {
-        effect: [e.id for e in diagnosed(effect, base, SEED + k, "white").effects]
-        for k, (effect, base) in enumerate(CASES)
-    }
-    right = [effect for effect, found in named.items() if found == [effect]]
-    assert len(right) >= FLOOR, named
+@pytest.fixture(scope="module")
+def cases(tmp_path_factory: pytest.TempPathFactory) -> list[Scored]:
+    return list(short_trial(SEED, tmp_path_factory.mktemp("short") / "trial"))
 
 
-@pytest.mark.parametrize("noise", ["white", "ar97", "student"])
-@pytest.mark.parametrize("base", ["kelvin_voigt", "sinh"])
-def test_nothing_is_named_where_nothing_is_missing(base: str, noise: str) -> None:
-    assert diagnosed(None, base, SEED + 90, noise).verdict == "adequate"
+def told(cases: list[Scored]) -> str:
+    return "; ".join(f"{c.effects} {c.base} {c.noise}: {c.outcome.named}, {c.outcome.kind}" for c in cases)
+
+
+def test_effects_are_named(cases: list[Scored]) -> None:
+    right, seen, _, _ = counts(cases)
+    assert seen > 0.7 * EFFECTS
+    assert right >= floor(MEASURED[0], seen), told(cases)
+
+
+def test_nothing_is_named_where_nothing_is_missing(cases: list[Scored]) -> None:
+    *_, clear, nulls = counts(cases)
+    assert nulls == NULLS
+    assert clear >= floor(MEASURED[1], nulls), told([c for c in cases if not c.effects])
+
+
+def test_floors_would_fail_a_worse_tool() -> None:
+    # One that names half of what it named would fall below.
+    assert floor(MEASURED[0], EFFECTS) > 0.5 * MEASURED[0].share * EFFECTS

@@ -5,7 +5,6 @@ Writes benches/README.md, unless `--quick`: a smoke test of everything, whose fi
 
 import argparse
 import os
-import sys
 import tempfile
 from pathlib import Path
 
@@ -21,7 +20,6 @@ def main() -> None:
         os.environ[f"{library}_NUM_THREADS"] = "1"  # read when NumPy is imported
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)  # pyswarms leaves a log where it is imported
-        sys.path.append(str(README.parent))  # for `readings`
         from report import lines
 
         text = []

@@ -115,7 +115,7 @@ def others(case: Case, effort: Effort, rivals: Rivals) -> Iterator[Contestant]:
 
 def projection(case: Case) -> Contestant:
     """What SciPy can do with the structure of the model: least squares for every beta."""
-    from readings import exact_optimum
+    from projection import exact_optimum
 
     def run(_seed: int) -> Outcome:
         start = time.perf_counter()

@@ -3,28 +3,40 @@
 Units everywhere: millimetre, newton, second, ampere, degree Celsius.
 """
 
-from ._core import MreError, Problem, Recording, __version__, inertia_weight, models
-from .asktell import AskTell
-from .certificate import Certificate, certificate
-from .chunks import read_chunks
-from .diagnose import diagnose
-from .diagnosis import Diagnosis
-from .effects import Effect
-from .errors import ExtrapolationWarning, InputError, UnitAssumedWarning
-from .fits import exact, hybrid
-from .identify import Identification, identify
-from .load import from_dataframe, load
-from .loops import LoopTable, loops
-from .measure import Fit
-from .model import Level, Model, simulate
-from .results import Parameter, StopReason, SwarmResult
-from .swarms import afsa, mafsa, pso
-from .uncertainty import Bootstrap, Estimate, Profile, Uncertainty, bootstrap, profile, uncertainty
+import sys
+from importlib import import_module
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from ._core import MreError, Problem, Recording, __version__, inertia_weight, models
+    from .asktell import AskTell
+    from .batches import batch, plot_parameters, read_results
+    from .certificate import Certificate, certificate
+    from .chunks import read_chunks
+    from .current_laws.fit import LawFit, fit_laws
+    from .current_laws.law import Dependence, Law
+    from .dataframe import from_dataframe
+    from .diagnose import diagnose
+    from .diagnosis import Diagnosis
+    from .effects import Effect
+    from .errors import ExtrapolationWarning, InputError, SkippedWarning, UnitAssumedWarning
+    from .fits import exact, hybrid
+    from .identify import Identification, identify
+    from .inspection import Inspection, inspect
+    from .load import load, load_all
+    from .loops import LoopTable, loops
+    from .measure import Fit
+    from .model import Level, Model, simulate
+    from .results import Parameter, StopReason, SwarmResult
+    from .swarms import afsa, mafsa, pso
+    from .uncertainty import Bootstrap, Estimate, Profile, Uncertainty, bootstrap, profile, uncertainty
 
 __all__ = [
     "AskTell",
     "Bootstrap",
     "Certificate",
+    "Dependence",
     "Diagnosis",
     "Effect",
     "Estimate",
@@ -32,6 +44,9 @@ __all__ = [
     "Fit",
     "Identification",
     "InputError",
+    "Inspection",
+    "Law",
+    "LawFit",
     "Level",
     "LoopTable",
     "Model",
@@ -40,27 +55,85 @@ __all__ = [
     "Problem",
     "Profile",
     "Recording",
+    "SkippedWarning",
     "StopReason",
     "SwarmResult",
     "Uncertainty",
     "UnitAssumedWarning",
     "__version__",
     "afsa",
+    "batch",
     "bootstrap",
     "certificate",
     "diagnose",
     "exact",
+    "fit_laws",
     "from_dataframe",
     "hybrid",
     "identify",
     "inertia_weight",
+    "inspect",
     "load",
+    "load_all",
     "loops",
     "mafsa",
     "models",
+    "plot_parameters",
     "profile",
     "pso",
     "read_chunks",
+    "read_results",
     "simulate",
     "uncertainty",
 ]
+
+_HOMES = {
+    "_core": "MreError Problem Recording __version__ inertia_weight models",
+    "asktell": "AskTell",
+    "batches": "batch plot_parameters read_results",
+    "certificate": "Certificate certificate",
+    "chunks": "read_chunks",
+    "current_laws.fit": "LawFit fit_laws",
+    "current_laws.law": "Dependence Law",
+    "dataframe": "from_dataframe",
+    "diagnose": "diagnose",
+    "diagnosis": "Diagnosis",
+    "effects": "Effect",
+    "errors": "ExtrapolationWarning InputError SkippedWarning UnitAssumedWarning",
+    "fits": "exact hybrid",
+    "identify": "Identification identify",
+    "inspection": "Inspection inspect",
+    "load": "load load_all",
+    "loops": "LoopTable loops",
+    "measure": "Fit",
+    "model": "Level Model simulate",
+    "results": "Parameter StopReason SwarmResult",
+    "swarms": "afsa mafsa pso",
+    "uncertainty": "Bootstrap Estimate Profile Uncertainty bootstrap profile uncertainty",
+}
+"""Module to the names it defines. They are imported on first use: the command line needs few of them."""
+
+_HOME = {name: module for module, names in _HOMES.items() for name in names.split()}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOME:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    value = getattr(import_module(f".{_HOME[name]}", __name__), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})
+
+
+class _Package(ModuleType):
+    """Some functions are called as the module that defines them, whose import would take their name."""
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if not (name in _HOME and isinstance(value, ModuleType)):
+            super().__setattr__(name, value)
+
+
+sys.modules[__name__].__class__ = _Package

@@ -170,8 +170,19 @@ def diagnose_recordings(
     held: Sequence[tuple[float | None, Sequence[float]]] | None = None,
     given: Sequence[ArrayLike] | None = None,
     base_effects: Sequence[tuple[str, str, Sequence[float]]] = [],
+    without: Sequence[str] = [],
     threads: int | None = None,
 ) -> tuple[str, list[NDArray[np.float64]], list[NDArray[np.float64]]]: ...
+def excitation(
+    kind: str,
+    *,
+    stroke: float,
+    speed: float,
+    highest: float,
+    duration: float,
+    rate: float,
+    current: tuple[float, float] | None = None,
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64] | None]: ...
 def classical(
     kx: float, kw: float, rho: float, sigma: float, n: float
 ) -> tuple[float, float | None, float, float, float]: ...

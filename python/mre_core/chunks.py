@@ -1,15 +1,16 @@
-"""A CSV file that does not fit into memory, chunk by chunk."""
+"""A text file that does not fit into memory, chunk by chunk."""
 
 import os
 import warnings
 from collections.abc import Iterator, Mapping
-from itertools import islice
+from itertools import chain, islice
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
 from .columns import assumption, find_columns
-from .csvfile import CsvFile, is_content, read_headers, read_numbers
 from .errors import InputError, UnitAssumedWarning
+from .files.cells import Cells, read_numbers
+from .files.text import find_table
 
 if TYPE_CHECKING:
     import numpy as np
@@ -18,10 +19,14 @@ if TYPE_CHECKING:
     Chunk = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]
 
 
+_HEAD = 2000
+"""Lines in which the header has to be."""
+
+
 def read_chunks(
     path: str | os.PathLike[str], *, map: Mapping[str, str] | None = None, rows: int = 1_000_000
 ) -> "Iterator[Chunk]":
-    """Read displacement, velocity and force out of a CSV file, for `Problem.streamed`.
+    """Read displacement, velocity and force out of a text file, for `Problem.streamed`.
 
     Only one chunk is in memory at a time. The velocity has to be recorded: deriving it needs the samples
     on both sides. Time is not looked at.
@@ -29,7 +34,7 @@ def read_chunks(
     Parameters
     ----------
     path : str or path-like
-        The file, as for `load`.
+        UTF-8 text, as for `load`.
     map : mapping of str to str, optional
         Role to ``column`` or ``column[unit]``, as in `load`.
     rows : int
@@ -60,14 +65,13 @@ def read_chunks(
         raise InputError(f"cannot be read: {error.strerror or error}", file=file) from None
     except UnicodeDecodeError as error:
         found = f"byte 0x{error.object[error.start]:02x} is not UTF-8"
-        raise InputError(found, file=file, wanted="comma-separated UTF-8 text") from None
+        raise InputError(found, file=file, wanted="UTF-8 text") from None
 
 
 def _chunks(text: TextIO, file: str, map: Mapping[str, str] | None, rows: int) -> "Iterator[Chunk]":
-    line, header = next(((i, line) for i, line in enumerate(text, 1) if is_content(line)), (0, ""))
-    if not header:
-        raise InputError("no header and no data", file=file, wanted="a header with units and data")
-    headers = read_headers(header.rstrip("\n"), file, line)
+    head = [line.rstrip("\n") for line in islice(text, _HEAD)]
+    block, _, dialect = find_table(head, file)
+    headers = block.headers
     columns = find_columns(headers, map, fixed={"current", "temperature", "simulated"}, file=file)
     if "velocity" not in columns:
         wanted = "a column for it: it cannot be derived chunk by chunk"
@@ -75,9 +79,10 @@ def _chunks(text: TextIO, file: str, map: Mapping[str, str] | None, rows: int) -
     used = [columns[role] for role in ("displacement", "velocity", "force")]
     if message := assumption(used, file):
         warnings.warn(message, UnitAssumedWarning, stacklevel=3)
-    first = line + 1
-    while body := [line.rstrip("\n") for line in islice(text, rows)]:
-        values = read_numbers(CsvFile(file, headers, body, first), [column.header for column in used])
+    first = block.first + 1
+    lines = chain(head[block.first :], text)
+    while body := [line.rstrip("\n") for line in islice(lines, rows)]:
+        values = read_numbers(Cells(file, headers, body, first, dialect), [column.header for column in used])
         displacement, velocity, force = (c.conversion.apply(values[c.header]) for c in used)
         yield displacement, velocity, force
         first += len(body)

@@ -10,12 +10,15 @@ from .units import IDENTITY, ROLES, Conversion, conversion, find_conversion, mea
 ALIASES: Final[dict[str, str]] = {
     alias: role
     for role, aliases in {
-        "time": ("time", "t", "zeit"),
-        "displacement": ("displacement", "disp", "stroke", "position"),
-        "velocity": ("velocity", "vel"),
-        "force": ("force", "load", "kraft"),
-        "current": ("current", "strom"),
-        "temperature": ("temperature", "temp"),
+        "time": ("time", "t", "zeit", "running_time", "elapsed_time", "时间"),
+        "displacement": (
+            *("displacement", "disp", "stroke", "position", "axial_displacement", "axial_disp"),
+            *("weg", "verschiebung", "位移"),
+        ),
+        "velocity": ("velocity", "vel", "geschwindigkeit", "速度"),
+        "force": ("force", "load", "kraft", "axial_force", "力", "荷载", "载荷"),
+        "current": ("current", "strom", "电流"),
+        "temperature": ("temperature", "temp", "temperatur", "温度"),
         "simulated": ("simulated_force", "simulated"),
     }.items()
     for alias in aliases
@@ -31,7 +34,7 @@ CANONICAL: Final[dict[str, str]] = {
     "simulated": "simulated_force_N",
 }
 
-_BRACKETS: Final = re.compile(r"(.*?)\s*(?:\[([^\[\]]*)\]|\(([^()]*)\))\s*", re.DOTALL)
+_BRACKETS: Final = re.compile(r"(.*?)\s*(?:\[([^\[\]]*)\]|[(（]([^()（）]*)[)）])\s*", re.DOTALL)
 
 
 class Column(NamedTuple):
@@ -58,7 +61,8 @@ def find_columns(
     headers : sequence of str
         Column names, all different.
     map : mapping of str to str, optional
-        Role to ``column`` or ``column[unit]``; other roles are recognised by their header.
+        Role to ``column`` or ``column[unit]``; other roles are recognised by their header. A minus in front
+        turns the sign.
     require_force : bool
         Whether a missing force is an error, as a missing time or displacement is.
     fixed : collection of str
@@ -89,7 +93,7 @@ def find_columns(
             raise InputError(problem, file=file, column=column.header, wanted="one role for each column")
         taken[column.header] = role
     for header in headers:
-        match = None if header in taken else _recognised(header)
+        match = None if header in taken else recognise(header)
         if match is None or match[0] in taken.values() or match[0] in fixed:
             continue
         role, unit = match
@@ -103,11 +107,12 @@ def find_columns(
         found[role] = Column(header, role, known, unit is None)
     required = ["time", "displacement", *(["force"] if require_force else [])]
     for role in required:
-        if role not in found:
+        if role not in found and role not in fixed:
             raise InputError(
                 f"no column for {role} among {listed(list(headers))}",
                 file=file,
-                wanted=f"{CANONICAL[role]}, or another one named by map, as {role}=NAME[{ROLES[role].unit}]",
+                wanted=f"{CANONICAL[role]}, or another one named by map, as {role}=NAME[{ROLES[role].unit}]"
+                " (mre-core inspect guesses which)",
             )
     return {role: found[role] for role in ROLES if role in found}
 
@@ -135,16 +140,16 @@ def assumption(columns: Collection[Column], file: str | None = None) -> str | No
     return (f"{file}: " if file else "") + f"no unit in the header of {units}; to state it, {example}"
 
 
-def _split(header: str) -> tuple[str, str | None]:
+def split_unit(header: str) -> tuple[str, str | None]:
     """Split a header such as ``Force [kN]`` into name and unit."""
     if match := _BRACKETS.fullmatch(header):
         return match[1], (match[2] if match[2] is not None else match[3]).strip() or None
     return header, None
 
 
-def _suffixes(header: str) -> list[tuple[str, str]]:
-    """Every split of a header in front of a word, longest ending first: ``vel``, ``m_s`` and so on."""
-    gaps = re.finditer(r"[_\s]+", header)
+def suffixes(header: str) -> list[tuple[str, str]]:
+    """Every split of a header in front of a word, longest ending first: ``vel``, ``m_s`` or ``F / kN``."""
+    gaps = re.finditer(r"\s*[/,]\s*|[_\s]+", header)
     return [("", header), *((header[: gap.start()], header[gap.end() :]) for gap in gaps)]
 
 
@@ -152,27 +157,45 @@ def _alias(name: str) -> str | None:
     return ALIASES.get(re.sub(r"\s+", "_", name.strip().lower()))
 
 
-def _recognised(header: str) -> tuple[str, str | None] | None:
-    """Role and unit of a header that is an alias with at most a unit behind it."""
-    name, unit = _split(header.strip())
+def recognise(header: str) -> tuple[str, str | None] | None:
+    """Read a header that is an alias with at most a unit behind it.
+
+    Parameters
+    ----------
+    header : str
+        Name of a column.
+
+    Returns
+    -------
+    (role, unit) or None
+        The unit is None where the header states none.
+    """
+    name, unit = split_unit(header.strip())
     if role := _alias(name):
         # A lone letter claims no unit of another quantity: "T [degC]" is not a time.
         foreign = len(name) == 1 and unit is not None and find_conversion(unit, role) is None
         return None if foreign else (role, unit)
-    for start, suffix in _suffixes(name) if unit is None else ():
+    for start, suffix in suffixes(name) if unit is None else ():
         if (role := _alias(start)) and find_conversion(suffix, role):
             return role, suffix
     return None
 
 
 def _mapped(role: str, text: str, headers: Sequence[str], file: str | None) -> Column:
-    """Resolve ``column`` or ``column[unit]``; the whole text is tried as a column first."""
+    """Resolve ``column``, ``column[unit]`` or ``-column``; the whole text is tried as a column first."""
     if not isinstance(text, str) or not text.strip():
         problem = f"map gives {text!r} for {role}"
         raise InputError(problem, file=file, value=text, wanted="the name of a column")
     if text in headers:
         return _read_unit(role, text, file)
-    name, unit = _split(text) if text.rstrip().endswith("]") else (text, None)
+    if text.startswith("-"):
+        column = _mapped(role, text[1:], headers, file)
+        factor, offset = column.conversion
+        return column._replace(conversion=Conversion(-factor, -offset))
+    name, unit = split_unit(text) if text.rstrip().endswith("]") else (text, None)
+    without_units = [header for header in headers if split_unit(header)[0] == name]
+    if name not in headers and len(without_units) == 1:
+        name = without_units[0]
     if name in headers:
         if unit is None:
             return _read_unit(role, name, file)
@@ -193,14 +216,14 @@ def _mapped(role: str, text: str, headers: Sequence[str], file: str | None) -> C
 
 def _read_unit(role: str, header: str, file: str | None) -> Column:
     """Take the unit of a mapped column from its header."""
-    name, unit = _split(header)
+    name, unit = split_unit(header)
     if unit is not None:
         return Column(header, role, conversion(unit, role, file=file, column=header), False)
-    for _, suffix in _suffixes(name):
+    for _, suffix in suffixes(name):
         if known := find_conversion(suffix, role):
             return Column(header, role, known, False)
     # A single letter is as likely the name of a sensor as a unit.
-    other = next((text for _, text in _suffixes(name) if len(text) > 1 and measured_by(text)), None)
+    other = next((text for _, text in suffixes(name) if len(text) > 1 and measured_by(text)), None)
     if other is not None:
         example = f"'{header}[{ROLES[role].unit}]' in the map if that is what it holds"
         raise InputError(

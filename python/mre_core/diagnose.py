@@ -18,8 +18,10 @@ from .findings import (
     labels,
     levels_of,
     missing_effects,
+    next_test_of,
     place_of,
     rms_of_force,
+    unknown_of,
 )
 from .grouping import group_by_current
 from .minimise import draw_seed
@@ -35,6 +37,7 @@ def diagnose(
     seed: int | None = None,
     false_alarm: float = 0.01,
     fixed: bool = False,
+    without: Sequence[str] = (),
     threads: int | None = None,
 ) -> Diagnosis:
     """Say whether a base model leaves out physics, where, which, and whether that helps on held-out data.
@@ -55,6 +58,8 @@ def diagnose(
         Chance that something is named although nothing is missing, in (0, 0.5).
     fixed : bool
         Keep the parameters of a given model as they are, and diagnose exactly that model.
+    without : sequence of str
+        Ids of effects that are ruled out, and not to be named.
     threads : int, optional
         Threads; all cores by default. The result does not depend on them.
 
@@ -87,6 +92,7 @@ def diagnose(
         [[places[id(member)] for member in members] for _, members in groups],
         false_alarm=float(false_alarm),
         seed=seed,
+        without=_ruled_out(without),
         threads=threads,
         **_base(start, everything, fixed=fixed),
     )
@@ -112,8 +118,9 @@ def diagnose(
         effects=missing_effects(raw, names, rms_of_force(everything)),
         where=tuple(place_of(place, names) for place in raw["where"]),
         fit=comparison(raw),
+        unknown=unknown_of(raw),
         absorbed_detail=hidden_effects(raw),
-        next_test=None,
+        next_test=next_test_of(raw),
         p_values={"base": raw["p_base"], "rest": raw["p_rest"], "effects": dict(raw["candidates"])},
         base_model=base_model,
         model=final,
@@ -126,6 +133,15 @@ def diagnose(
             for label, r, first, second in zip(names, everything, before, last, strict=True)
         ),
     )
+
+
+def _ruled_out(ids: Sequence[str]) -> list[str]:
+    """Check ids of effects."""
+    known = list(dict.fromkeys(row["id"] for row in _core.catalogue()))
+    for given in [ids] if isinstance(ids, str) else ids:
+        if given not in known:
+            raise InputError(f"without names '{given}'", wanted=f"one of {', '.join(known)}")
+    return [ids] if isinstance(ids, str) else list(ids)
 
 
 def _read(base: str | os.PathLike[str] | Model) -> str | Model:

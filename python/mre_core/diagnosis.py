@@ -91,6 +91,9 @@ class Diagnosis:
     where: tuple[Mapping[str, Any], ...]
     """Places of the mismatch of the base model, strongest first."""
     fit: Comparison
+    unknown: Mapping[str, Any] | None
+    """What an unexplained mismatch depends on, in words and numbers, with its map over displacement and
+    velocity; which effects came nearest to it."""
     absorbed_detail: tuple[Mapping[str, Any], ...]
     """Effects that these recordings would hide, up to which size, and why."""
     next_test: Mapping[str, Any] | None
@@ -128,6 +131,7 @@ class Diagnosis:
             ],
             "where": [dict(place) for place in self.where],
             "fit": asdict(self.fit),
+            "unknown": None if self.unknown is None else dict(self.unknown),
             "absorbed": list(self.absorbed),
             "absorbed_detail": [dict(detail) for detail in self.absorbed_detail],
             "next_test": None if self.next_test is None else dict(self.next_test),

@@ -4,13 +4,17 @@ from typing import Any
 
 from ._core import MreError
 
-__all__ = ["ExtrapolationWarning", "InputError", "MreError", "UnitAssumedWarning"]
+__all__ = ["ExtrapolationWarning", "InputError", "MreError", "SkippedWarning", "UnitAssumedWarning"]
 
 _LONGEST_VALUE = 60
 
 
 class UnitAssumedWarning(UserWarning):
     """A column states no unit, so the canonical one is taken."""
+
+
+class SkippedWarning(UserWarning):
+    """A file of a folder, or a table of a file, holds no recording and is passed over."""
 
 
 class ExtrapolationWarning(UserWarning):
@@ -29,7 +33,7 @@ class InputError(MreError):
     line : int, optional
         Line of the file, counted from 1 as in a text editor.
     row : int, optional
-        Row of a table in memory, counted from 0.
+        Row of a table, counted as its source counts: from 0 in memory, from 1 in a spreadsheet.
     column : str, optional
         Column as written in the header.
     value : object, optional

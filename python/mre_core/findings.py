@@ -128,3 +128,39 @@ def hidden_effects(raw: Raw) -> tuple[dict[str, Any], ...]:
         for detail in raw["absorbed"]
         if detail["id"] not in named
     )
+
+
+def unknown_of(raw: Raw) -> dict[str, Any] | None:
+    """Describe what an unexplained mismatch depends on, in words too."""
+    if raw["unknown"] is None:
+        return None
+    return {
+        "statement": words.unknown(raw["unknown"], raw["nearest"]),
+        "nearest": raw["nearest"],
+        **raw["unknown"],
+    }
+
+
+def next_test_of(raw: Raw) -> dict[str, Any] | None:
+    """Describe the proposed test, what it is expected to tell apart or show, and what others would."""
+    found = raw["next_test"]
+    if found is None:
+        return None
+    best = found["prospects"][0]
+    limits = found["limits"]
+    current = limits["current_A"]
+    separates = [id for id, chance in best["chances"].items() if chance >= 0.5]
+    if not separates:
+        return None
+    return {
+        "why": words.next_test(best, separates, limits),
+        "excitation": best["excitation"],
+        "frequency_hz": best["frequency_hz"],
+        "amplitude_mm": best["amplitude_mm"],
+        "duration_s": limits["duration_s"],
+        "current_A": current[0] if current else None,
+        "separates": separates,
+        "chances": best["chances"],
+        "limits": limits,
+        "others": found["prospects"][1:],
+    }

@@ -49,7 +49,7 @@ def frame_headers(df: Any, source: str | None) -> dict[str, Any]:
     return headers
 
 
-def frame_numbers(series: Any, column: str, source: str | None) -> "NDArray[np.float64]":
+def frame_numbers(series: Any, column: str, source: str | None, first: int = 0) -> "NDArray[np.float64]":
     """Read one column as numbers.
 
     Parameters
@@ -60,6 +60,8 @@ def frame_numbers(series: Any, column: str, source: str | None) -> "NDArray[np.f
         Its name.
     source : str or None
         Source of the frame, for messages.
+    first : int
+        Number of the first row as its source counts.
 
     Returns
     -------
@@ -89,7 +91,9 @@ def frame_numbers(series: Any, column: str, source: str | None) -> "NDArray[np.f
     for row, item in enumerate(items):
         numbers[row] = _number(item)
         if not math.isfinite(numbers[row]):
-            raise InputError(file=source, row=row, column=column, value=item, wanted="a finite number")
+            raise InputError(
+                file=source, row=first + row, column=column, value=item, wanted="a finite number"
+            )
     return numbers
 
 

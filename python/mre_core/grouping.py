@@ -29,9 +29,14 @@ def group_by_current(recordings: Sequence[Recording]) -> list[tuple[float | None
     groups: list[list[Recording]] = []
     for recording in sorted(known, key=lambda r: r.current_level or 0.0):
         level = recording.current_level or 0.0
-        last = groups[-1][-1].current_level or 0.0 if groups else -np.inf
-        if level - last <= 0.02 + 0.02 * abs(level):
+        last = groups[-1][-1].current_level or 0.0 if groups else 0.0
+        if groups and same_level(level, last):
             groups[-1].append(recording)
         else:
             groups.append([recording])
     return [(float(np.mean([r.current_level or 0.0 for r in group])), group) for group in groups]
+
+
+def same_level(current: float, other: float) -> bool:
+    """Tell whether two currents in A count as one level."""
+    return abs(current - other) <= 0.02 + 0.02 * abs(current)

@@ -1,21 +1,18 @@
-"""Recordings out of CSV files and data frames."""
+"""Recordings out of files of any known format."""
 
 import os
 import warnings
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from ._core import MreError, Recording
-from .columns import Column, assumption, find_columns
+from ._core import Recording
 from .conditions import conditions_in_name, read_conditions
-from .csvfile import line_of, open_csv, read_numbers
-from .errors import InputError, UnitAssumedWarning
-from .frame import frame_headers, frame_numbers
-
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
+from .errors import InputError, SkippedWarning, listed
+from .files import ReadOptions, Table, find_files, open_tables
+from .files.blocks import joined
+from .files.table import EvenTable, NoTableError
+from .tabled import columns_of, recording_of
 
 
 def load(
@@ -23,14 +20,16 @@ def load(
     *,
     map: Mapping[str, str] | None = None,
     name_pattern: str | None = None,
+    read: Mapping[str, object] | None = None,
     require_force: bool = True,
     **conditions: float | str | None,
 ) -> Recording:
-    """Load a recording from a CSV file.
+    """Load the recording in a file.
 
-    The file is comma-separated UTF-8 text with a decimal point and one header row; ``#`` lines may
-    precede it. A column is recognised by a header such as ``force_N`` or ``Force [kN]``, and its values
-    are converted to the canonical unit: s, mm, mm/s, N, A, degC.
+    The format follows from the ending: text (.csv, .txt and others), Excel, MATLAB, LabVIEW .tdms, Parquet,
+    HDF5. In text the encoding, the separator, the decimal mark, the header and a row of units are found
+    out; `mre_core.inspect` shows what was understood. A column is recognised by a header such as ``force_N``
+    or ``Force [kN]``, and its values are converted to the canonical unit: s, mm, mm/s, N, A, degC.
 
     Parameters
     ----------
@@ -44,6 +43,9 @@ def load(
         Form of the file name, such as ``{amplitude}mm{frequency}Hz{current}A``. A field stands for a
         number, where ``0x5`` is 0.5; ``current`` and ``temperature`` become conditions, in the unit
         written behind the field (else A, degC).
+    read : mapping of str to object, optional
+        How to read the file, where that is not found out: ``encoding``, ``separator``, ``decimal``,
+        ``header`` (line from 1), ``table`` (sheet, group, block), ``rate`` (Hz, without a column for time).
     require_force : bool
         False leaves the force unread, for a simulation.
     **conditions : float or str
@@ -66,121 +68,115 @@ def load(
     UnitAssumedWarning
         A column states no unit, so the canonical one is taken.
     """
-    path = Path(path)
-    file = str(path)
-    fixed = conditions_in_name(path.stem, name_pattern, file=file) if name_pattern is not None else {}
-    fixed |= read_conditions(conditions, file=file)
-    source = open_csv(path)
-    known = _known(fixed, require_force)
-    columns = find_columns(source.headers, map, require_force=require_force, fixed=known, file=file)
-    if message := assumption(columns.values(), file):
-        warnings.warn(message, UnitAssumedWarning, stacklevel=2)
-    values = read_numbers(source, [column.header for column in columns.values()])
-    time = values[columns["time"].header]
-    if row := _standstill(time):
-        raise _time_error(time, row, file=file, line=line_of(source, row), column=columns["time"].header)
-    return _recording(columns, values, fixed, path.stem, file)
+    options = ReadOptions.of(read)
+    found = _load_file(Path(path), map, name_pattern, options, conditions, require_force=require_force)
+    if len(found) > 1:
+        names = listed([recording.name for recording in found])
+        wanted = "load_all, or one of them by read={'table': ...}"
+        raise InputError(f"holds {len(found)} recordings: {names}", file=str(path), wanted=wanted)
+    return found[0]
 
 
-def from_dataframe(
-    df: Any,
-    map: Mapping[str, str] | None = None,
+def load_all(
+    paths: str | os.PathLike[str] | Sequence[str | os.PathLike[str]],
     *,
-    name: str = "",
+    map: Mapping[str, str] | None = None,
+    name_pattern: str | None = None,
+    read: Mapping[str, object] | None = None,
     require_force: bool = True,
     **conditions: float | str | None,
-) -> Recording:
-    """Make a recording from a data frame.
+) -> list[Recording]:
+    """Load all recordings of a campaign.
 
     Parameters
     ----------
-    df : pandas.DataFrame or alike
-        Anything with ``columns`` and ``df[column]``, where a column converts to a NumPy array of n
-        numbers. Columns are recognised and converted as by `load`.
-    map : mapping of str to str, optional
-        Role to ``column`` or ``column[unit]``, as in `load`.
-    name : str
-        Name of the recording.
-    require_force : bool
-        False leaves the force unread, for a simulation.
-    **conditions : float or str
-        ``current`` (A) or ``temperature`` (degC) of the whole recording, as in `load`.
+    paths : str, path-like, or sequence of them
+        Files and folders. A folder stands for the files in it, sorted by name. A file may hold several
+        recordings: sheets, groups, structs, or blocks in which time starts anew.
+    map, name_pattern, read, require_force, **conditions
+        As for `load`, for every recording. The pattern may match the sheet or group instead of the file.
 
     Returns
     -------
-    Recording
-        The recording, in canonical units.
+    list of Recording
+        In the order of the files; named by the file, and behind ``#`` by the sheet or block.
 
     Raises
     ------
     InputError
-        A column, a unit, a value or a condition is not usable. Rows are counted from 0.
+        A file cannot be read, as for `load`.
 
     Warns
     -----
-    UnitAssumedWarning
-        A column states no unit, so the canonical one is taken.
+    SkippedWarning
+        A file of a folder, or a table of a file, holds no recording.
     """
-    source = f"recording '{name}'" if name else None
-    fixed = read_conditions(conditions, file=source)
-    headers = frame_headers(df, source)
-    known = _known(fixed, require_force)
-    columns = find_columns(list(headers), map, require_force=require_force, fixed=known, file=source)
-    if message := assumption(columns.values(), source):
-        warnings.warn(message, UnitAssumedWarning, stacklevel=2)
-    values = {
-        column.header: frame_numbers(df[headers[column.header]], column.header, source)
-        for column in columns.values()
-    }
-    time = values[columns["time"].header]
-    if row := _standstill(time):
-        raise _time_error(time, row, file=source, row=row, column=columns["time"].header)
-    return _recording(columns, values, fixed, name, source)
+    given = [paths] if isinstance(paths, str | os.PathLike) else list(paths)
+    options = ReadOptions.of(read)
+    named = {Path(path) for path in given}
+    found: list[Recording] = []
+    for file in find_files(given):
+        try:
+            found += _load_file(file, map, name_pattern, options, conditions, require_force=require_force)
+        except NoTableError as error:
+            if file in named:
+                raise
+            warnings.warn(f"passed over: {error}", SkippedWarning, stacklevel=2)
+    if given and not found:
+        raise InputError("no file holds a recording", file=str(given[0]), wanted="at least one recording")
+    return found
 
 
-def _known(fixed: Mapping[str, float], require_force: bool) -> set[str]:
-    """Roles for which no column is read."""
-    return set(fixed) | (set() if require_force else {"force"})
+def _load_file(
+    path: Path,
+    map: Mapping[str, str] | None,
+    name_pattern: str | None,
+    options: ReadOptions,
+    given: Mapping[str, float | str | None],
+    *,
+    require_force: bool,
+) -> list[Recording]:
+    tables = joined(open_tables(path, options), map)
+    if options.rate is not None:
+        tables = [EvenTable(table, options.rate) for table in tables]
+    stated = read_conditions(given, file=str(path))
+    by_name = [_conditions(table, path, name_pattern) for table in tables]
+    usable = list(_usable(tables, [fixed | stated for fixed in by_name], map, require_force))
+    found = []
+    for table, columns, fixed in usable:
+        name = path.stem if len(usable) == 1 or not table.name else f"{path.stem}#{table.name}"
+        found.append(recording_of(table, columns, fixed, name, stacklevel=3))
+    return found
 
 
-def _standstill(time: "NDArray[np.float64]") -> int:
-    """First row at which time does not increase; 0 where it always does."""
-    import numpy as np
-
-    stops = np.flatnonzero(np.diff(time) <= 0)
-    return int(stops[0]) + 1 if stops.size else 0
-
-
-def _time_error(time: "NDArray[np.float64]", at: int, **place: Any) -> InputError:
-    before, after = float(time[at - 1]), float(time[at])
-    what = "is repeated" if after == before else "goes backward"
-    problem = f"time {what}: {after!r} after {before!r}"
-    return InputError(problem, value=after, wanted="time to increase from row to row", **place)
+def _conditions(table: Table, path: Path, pattern: str | None) -> dict[str, float]:
+    """Conditions in the name of the table, if that has the form, or else of the file."""
+    if pattern is None:
+        return {}
+    if table.name:
+        try:
+            return conditions_in_name(table.name, pattern)
+        except InputError:
+            pass
+    return conditions_in_name(path.stem, pattern, file=str(path))
 
 
-def _recording(
-    columns: Mapping[str, Column],
-    values: Mapping[str, "NDArray[np.float64]"],
-    fixed: Mapping[str, float],
-    name: str,
-    source: str | None,
-) -> Recording:
-    import numpy as np
-
-    # What overflows becomes infinite, which the core refuses with the place.
-    with np.errstate(over="ignore"):
-        series = {role: column.conversion.apply(values[column.header]) for role, column in columns.items()}
-    try:
-        return Recording(
-            series["time"],
-            series["displacement"],
-            series.get("force"),
-            velocity=series.get("velocity"),
-            current=fixed.get("current", series.get("current")),
-            temperature=fixed.get("temperature", series.get("temperature")),
-            simulated=series.get("simulated"),
-            name=name,
-        )
-    except MreError as error:
-        problem = str(error).removeprefix(f"recording '{name}': ")
-        raise InputError(problem, file=source) from error
+def _usable(
+    tables: Sequence[Table],
+    conditions: Sequence[Mapping[str, float]],
+    map: Mapping[str, str] | None,
+    require_force: bool,
+) -> Iterator[tuple[Table, Any, Mapping[str, float]]]:
+    """Pass over the tables that are no recordings, unless none is one."""
+    failures: list[InputError] = []
+    for table, fixed in zip(tables, conditions, strict=True):
+        try:
+            columns = columns_of(table, map, fixed, require_force=require_force)
+        except InputError as error:
+            failures.append(error)
+        else:
+            yield table, columns, fixed
+    if len(failures) == len(tables):
+        raise failures[0]
+    for failure in failures:
+        warnings.warn(f"passed over: {failure}", SkippedWarning, stacklevel=4)

@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 
 from . import _core
 from ._core import Recording
+from .current_laws.law import Dependence
+from .current_laws.variable import check_over, series_of
 from .effects import Effect
 from .errors import ExtrapolationWarning, InputError
 from .tested import beyond_tested
@@ -21,6 +23,8 @@ SCHEMA = "mre-core/model/1"
 SIMULATED = "simulated"
 """In place of a model's name: the force that a user's own simulation gives for the recording."""
 _LARGEST_FILE = 50_000_000
+_FINE = 129
+"""Levels at which laws are tabulated for a current that changes; between them the force is interpolated."""
 
 
 @dataclass(frozen=True)
@@ -53,6 +57,11 @@ class Model:
     """Effects beside the model's equation, in the order in which they act."""
     sizes: Mapping[str, Any] = field(default_factory=dict)
     """Sizes of the recordings that the effects were fitted to, from which some effects take their scale."""
+    laws: Mapping[str, Dependence] = field(default_factory=dict)
+    """Every parameter over the current; empty where only the levels are known. The levels are then those
+    that were tested."""
+    over: str = "current"
+    """What the laws run over: in place of the current, ``temperature`` or ``amplitude``."""
 
     def __post_init__(self) -> None:
         known = list(self.units)
@@ -67,6 +76,8 @@ class Model:
             raise InputError(
                 "the model has effects and no sizes", wanted="sizes of the recordings behind them"
             )
+        if self.laws and sorted(self.laws) != sorted(known):
+            raise InputError(f"laws of {self.name} are {', '.join(self.laws)}", wanted=", ".join(known))
         if self.name != SIMULATED:
             _core.check(self.name, self.given())
 
@@ -80,6 +91,24 @@ class Model:
         return [
             (level.current, [float(level.parameters[name]) for name in self.units]) for level in self.levels
         ]
+
+    def given_for(self, recording: Recording) -> tuple[list[tuple[float | None, list[float]]], Recording]:
+        """Levels as the core takes them for a recording, and the recording with what they are levels of."""
+        if not self.laws:
+            return self.given(), recording
+        series = series_of(recording, self.over)
+        at = np.unique(series)
+        if len(at) > _FINE:
+            at = np.linspace(at[0], at[-1], _FINE)
+        values = np.stack([self.laws[name].at(at) for name in self.units], axis=1)
+        levels: list[tuple[float | None, list[float]]] = [
+            (float(place), row.tolist()) for place, row in zip(at, values, strict=True)
+        ]
+        if self.over == "current" or len(levels) == 1:
+            return levels, recording
+        # The core interpolates between levels of the current: what changes takes its place.
+        moved = (recording.time, recording.displacement, None)
+        return levels, Recording(*moved, velocity=recording.velocity, current=series, name=recording.name)
 
     def to_dict(self) -> dict[str, Any]:
         """Content of a model file."""
@@ -102,7 +131,11 @@ class Model:
             "levels": levels,
             "tested": dict(self.tested),
             "sizes": dict(self.sizes),
-        }
+        } | (
+            {"laws": {name: law.to_dict() for name, law in self.laws.items()}, "over": self.over}
+            if self.laws
+            else {}
+        )
 
     @classmethod
     def from_dict(cls, content: Any, *, file: str | None = None) -> Self:
@@ -130,7 +163,12 @@ class Model:
             )
             tested = {str(name): float(value) for name, value in content.get("tested", {}).items()}
             effects = tuple(Effect.from_dict(effect) for effect in content.get("effects", []))
-            return cls(str(content["model"]), levels, tested, effects, dict(content.get("sizes", {})))
+            over = str(content.get("over", "current"))
+            check_over(over)
+            laws = {str(name): Dependence.from_dict(law) for name, law in content.get("laws", {}).items()}
+            return cls(
+                str(content["model"]), levels, tested, effects, dict(content.get("sizes", {})), laws, over
+            )
         except (KeyError, TypeError, AttributeError) as error:
             raise InputError(f"not a model: {error!r}", file=file, wanted=f"a {SCHEMA} file") from None
         except ValueError as error:
@@ -214,7 +252,8 @@ def simulate(model: Model | str | os.PathLike[str], recording: Recording) -> NDA
         warnings.warn(message, ExtrapolationWarning, stacklevel=2)
     effects = [effect.given() for effect in model.effects]
     if model.name != SIMULATED:
-        return _core.simulate(model.name, model.given(), recording, effects, model.sizes or None)
+        levels, moved = model.given_for(recording)
+        return _core.simulate(model.name, levels, moved, effects, model.sizes or None)
     if recording.simulated is None:
         raise InputError(
             f"recording '{recording.name}' has no simulated force", wanted="a column simulated_force_N"

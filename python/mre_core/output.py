@@ -25,9 +25,13 @@ class Stage:
         return self._folder / name
 
     def write_json(self, name: str, content: Any) -> None:
-        """Write JSON; numbers that are not finite become null."""
-        text = json.dumps(finite(content), indent=2, ensure_ascii=False, allow_nan=False)
-        self.path(name).write_text(text + "\n", encoding="utf-8")
+        """Write a JSON file; numbers that are not finite become null."""
+        self.path(name).write_text(to_json(content), encoding="utf-8")
+
+
+def to_json(content: Any) -> str:
+    """Write as JSON text; numbers that are not finite become null."""
+    return json.dumps(finite(content), indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
 
 @contextmanager

@@ -7,6 +7,7 @@ The parameters reproduce Table 2 at 0 A and 2 mm and the peak forces that the fi
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ._core import Recording, simulate
 
@@ -71,7 +72,6 @@ def record(condition: Condition, seed: int) -> Recording:
     Recording
         With force and constant current.
     """
-    rng = np.random.default_rng([seed, round(10 * condition.current), round(10 * condition.amplitude)])
     time = np.arange(round(CYCLES * SAMPLING_RATE) + 1) / SAMPLING_RATE
     turn = 2 * np.pi
     true = Recording(
@@ -80,12 +80,34 @@ def record(condition: Condition, seed: int) -> Recording:
         None,
         velocity=condition.amplitude * turn * np.cos(turn * time),
     )
-    force = simulate("sinh", [(None, condition.values)], true)
+    return measured(condition, true, simulate("sinh", [(None, condition.values)], true), seed)
+
+
+def measured(condition: Condition, true: Recording, force: NDArray[np.float64], seed: int) -> Recording:
+    """Add the rig's noise to a motion and its force; the velocity is left out.
+
+    Parameters
+    ----------
+    condition : Condition
+        Gives the recording its current and name.
+    true : Recording
+        n samples of the motion.
+    force : ndarray, shape (n,)
+        In N.
+    seed : int
+        Of the noise.
+
+    Returns
+    -------
+    Recording
+        With 0.005 mm of noise on the displacement, and on the force 0.5 % of the largest but at least 0.2 N.
+    """
+    rng = np.random.default_rng([seed, round(10 * condition.current), round(10 * condition.amplitude)])
     noise = max(0.2, 0.005 * float(np.abs(force).max()))
     return Recording(
-        time,
-        true.displacement + rng.normal(0, DISPLACEMENT_NOISE, len(time)),
-        force + rng.normal(0, noise, len(time)),
+        true.time,
+        true.displacement + rng.normal(0, DISPLACEMENT_NOISE, len(force)),
+        force + rng.normal(0, noise, len(force)),
         current=condition.current,
         name=condition.name,
     )

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ._core import Recording
+from .current_laws.variable import UNITS, series_of
 
 if TYPE_CHECKING:
     from .model import Model
@@ -28,7 +29,9 @@ def beyond_tested(model: "Model", recording: Recording) -> list[str]:
         if tested is not None and largest > 1.01 * tested:
             what, _, unit = key.partition("_")
             unit = unit.replace("_", "/")
-            found.append(f"{what} goes to {largest:.4g} {unit}, tested up to {tested:.4g} {unit}")
+            beyond = 100 * (largest / tested - 1)
+            sentence = f"{what} goes to {largest:.4g} {unit}, tested up to {tested:.4g} {unit}"
+            found.append(f"{sentence}: {beyond:.3g} % beyond")
     known = [level.current for level in model.levels if level.current is not None]
     if known and recording.current is not None:
         current = np.asarray(recording.current)
@@ -36,9 +39,19 @@ def beyond_tested(model: "Model", recording: Recording) -> list[str]:
         margin = 0.02 + 0.02 * max(abs(value) for value in known)
         if low < min(known) - margin or high > max(known) + margin:
             span = f"goes from {low:.4g} A to {high:.4g} A" if low < high else f"is {low:.4g} A"
+            beyond = max(min(known) - low, high - max(known))
             found.append(
-                f"current {span}, tested from {min(known):.4g} A to"
-                f" {max(known):.4g} A: the force of the nearest tested current is taken"
+                f"current {span}, tested from {min(known):.4g} A to {max(known):.4g} A, {beyond:.3g} A"
+                " beyond: the force of the nearest tested current is taken"
+            )
+    if f"{model.over}_from" in model.tested:
+        low, high = model.tested[f"{model.over}_from"], model.tested[f"{model.over}_to"]
+        values = series_of(recording, model.over)
+        beyond = max(low - float(values.min()), float(values.max()) - high)
+        if beyond > 0.02 + 0.02 * max(abs(low), abs(high)):
+            found.append(
+                f"{model.over} goes {beyond:.3g} {UNITS[model.over]} beyond the tested {low:.4g} to"
+                f" {high:.4g}: the parameters of the nearest are taken"
             )
     name = f"recording '{recording.name}': " if recording.name else ""
     return [name + sentence for sentence in found]

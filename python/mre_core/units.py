@@ -134,7 +134,9 @@ def find_conversion(unit: str, role: str) -> Conversion | None:
     spellings = [text, re.sub(r"[ _]per[ _]", "/", text)]
     if role == "velocity":
         spellings.append(text.replace("_", "/", 1))
-    if len(text) > 3:
+    if role in ("force", "simulated"):
+        spellings.append(text.replace("KN", "kN"))
+    if len(text) > 2:
         spellings.append(text.lower())
     for spelling in spellings:
         parsed = _parse(spelling)

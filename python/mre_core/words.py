@@ -93,6 +93,60 @@ def hidden(detail: Mapping[str, Any], limit: str) -> str:
     return f"up to about {size} it has less than an even chance of being detected: {limit}"
 
 
+_ON = {
+    "displacement": "the displacement",
+    "velocity": "the velocity",
+    "state": "displacement and velocity together",
+    "force": "the force itself",
+    "acceleration": "the acceleration",
+    "memory": "the motion of the last {:.3g} s",
+    "reversal": "the path since the last reversal (about {:.2g} of the stroke)",
+    "amplitude": "the amplitude of the motion",
+    "largest_displacement": "the largest displacement so far",
+    "path": "the path travelled so far",
+    "dissipated_power": "the power dissipated lately",
+    "time": "the time in the recording",
+    "current": "the coil current",
+    "recording": "something that differs from recording to recording",
+}
+
+
+def unknown(found: Mapping[str, Any], nearest: Sequence[str]) -> str:
+    """Say what an unexplained mismatch depends on, and what it is like."""
+    things = [_ON[d["on"]].format(d["size"] or 0.0) for d in found["depends_on"]]
+    on = f"it goes mostly with {listed(things)}" if things else "none of the general features shows on what"
+    odd, loss = found["odd"], found["dissipative"]
+    shape = "odd" if odd > 0.8 else "even" if odd < 0.2 else "neither odd nor even"
+    energy = "takes energy out" if loss > 0.5 else "gives energy" if loss < -0.5 else "mostly stores energy"
+    told = (
+        f" The nearest effects of the catalogue, {listed(nearest)}, leave too much of it." if nearest else ""
+    )
+    return (
+        f"A force of about {found['rms_N']:.3g} N rms is unexplained: {on}; over displacement and velocity"
+        f" it is {shape} and {energy}.{told}"
+    )
+
+
+EXCITATIONS = {
+    "slow_sine": "a slow sine of {amplitude_mm:.3g} mm at {frequency_hz:.3g} Hz",
+    "fast_sine": "a fast sine of {amplitude_mm:.3g} mm at {frequency_hz:.3g} Hz",
+    "rising_and_falling_amplitudes": "sines of {frequency_hz:.3g} Hz with amplitudes that rise to"
+    " {amplitude_mm:.3g} mm and fall again, with rests",
+    "sweep": "a sweep up to {frequency_hz:.3g} Hz",
+    "hold": "a step to {amplitude_mm:.3g} mm, held",
+    "multisine": "an odd random-phase multisine up to {frequency_hz:.3g} Hz",
+    "current_steps": "a sine of {amplitude_mm:.3g} mm at {frequency_hz:.3g} Hz under steps of the current",
+}
+
+
+def next_test(best: Mapping[str, Any], separates: Sequence[str], limits: Mapping[str, Any]) -> str:
+    """Say which test would resolve what is in doubt."""
+    signal = EXCITATIONS[best["excitation"]].format(**best)
+    return (
+        f"{signal}, {limits['duration_s']:.3g} s long, is expected to show or to rule out {listed(separates)}"
+    )
+
+
 def interval(low: float | None, high: float | None) -> str:
     """Say an interval, of which the recordings may not determine an end."""
     if low is None and high is None:

@@ -1,8 +1,7 @@
 """Options that several commands share, and how their texts are read."""
 
 import math
-import tomllib
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -10,26 +9,44 @@ import click
 
 from .._core import Recording
 from ..errors import InputError
+from ..files import ReadOptions
 from ..load import load
+from ..load import load_all as load_campaign
 from ..units import ROLES
+from .settings import read_config
 
 F = TypeVar("F", bound=Callable[..., Any])
 
-WHOLE = click.IntRange(-(2**63), 2**63 - 1, clamp=False)
-"""Whole numbers that the core can take; their ranges are checked there."""
 
-_PAIRS = ("--map", "--set")
+class Whole(click.types.IntParamType):
+    """Whole numbers that the core can take; their ranges are checked there, and need no mention in help."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Convert a text."""
+        number = super().convert(value, param, ctx)
+        if not -(2**63) <= number < 2**63:
+            self.fail(f"{value} has too many digits, wanted a whole number", param, ctx)
+        return number
+
+
+WHOLE = Whole()
+
+_PAIRS = ("--map", "--set", "--read")
+_FILES = ("--recordings",)
+_MOST_SEEDS = 1_000_000
 
 
 def spread(arguments: Sequence[str]) -> list[str]:
-    """Let ``--map a=b c=d`` stand for ``--map a=b --map c=d``."""
+    """Let ``--map a=b c=d`` stand for ``--map a=b --map c=d``, and ``--recordings`` take several files."""
     out: list[str] = []
     option = ""
     for argument in arguments:
         role = argument.partition("=")[0]
         if argument.startswith("-"):
-            option = argument if argument in _PAIRS else ""
-        elif option and role in ROLES and "=" in argument:
+            option = argument if argument in (*_PAIRS, *_FILES) else ""
+        elif option in _FILES or (
+            option and role in (ReadOptions._fields if option == "--read" else ROLES) and "=" in argument
+        ):
             if out[-1] != option:
                 out.append(option)
         else:
@@ -38,41 +55,17 @@ def spread(arguments: Sequence[str]) -> list[str]:
     return out
 
 
-def _read_config(context: click.Context, _: click.Parameter, value: Path | None) -> Path | None:
-    """Take option values from a TOML file; those on the command line win."""
-    if value is None:
-        return None
-    file = str(value)
-    try:
-        content = tomllib.loads(value.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(f"cannot be read: {error.strerror}", file=file) from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InputError(f"is not TOML: {error}", file=file) from None
-    known = {
-        name.removeprefix("--").replace("-", "_"): p
-        for p in context.command.params
-        if isinstance(p, click.Option) and p.name != "config"
-        for name in p.opts
-        if name.startswith("--")
-    }
-    defaults: dict[str, Any] = {}
-    for key, setting in content.items():
-        option = known.get(key.replace("-", "_"))
-        if option is None:
-            from difflib import get_close_matches
-
-            near = get_close_matches(key, known, n=1)
-            hint = f" (nearest: {near[0]})" if near else ""
-            raise InputError(f"unknown key '{key}'{hint}", file=file, wanted=", ".join(sorted(known)))
-        if isinstance(setting, dict) and option.multiple:
-            setting = [f"{role}={text}" for role, text in setting.items()]
-        if isinstance(setting, list) != option.multiple or isinstance(setting, dict):
-            wanted = "a list or a table" if option.multiple else "a single value"
-            raise InputError(f"{option.opts[0]} is {setting!r}", file=file, wanted=wanted)
-        defaults[str(option.name)] = setting
-    context.default_map = {**(context.default_map or {}), **defaults}
-    return value
+def config_option(command: F) -> F:
+    """Option of every command that has settings."""
+    return click.option(
+        "--config",
+        type=click.Path(path_type=Path),
+        is_eager=True,
+        expose_value=False,
+        callback=read_config,
+        metavar="F.toml",
+        help="Options from a TOML file; those given here win.",
+    )(command)
 
 
 def common_options(command: F) -> F:
@@ -98,31 +91,55 @@ def common_options(command: F) -> F:
             help="Form of the file names, such as '{amplitude}mm{frequency}Hz{current}A'.",
         ),
         click.option(
-            "--config",
-            type=click.Path(path_type=Path),
-            is_eager=True,
-            expose_value=False,
-            callback=_read_config,
-            metavar="F.toml",
-            help="Options from a TOML file; those given here win.",
+            "--read",
+            "reading",
+            multiple=True,
+            metavar="KEY=VALUE",
+            help=f"How to read the files: {', '.join(ReadOptions._fields)}.",
         ),
     ]
+    command = config_option(command)
     for option in reversed(options):
         command = option(command)
     return command
 
 
-def pairs(option: str, texts: Iterable[str]) -> dict[str, str]:
+def report_options(command: F) -> F:
+    """Options of every command that shows results."""
+    quiet = click.option("--quiet", is_flag=True, help="No progress, no tables.")
+    as_json = click.option("--json", "as_json", is_flag=True, help="Results as JSON on standard output.")
+    return as_json(quiet(command))
+
+
+def pairs(option: str, texts: Iterable[str], keys: Collection[str] = ROLES) -> dict[str, str]:
     """Read ``ROLE=TEXT`` options."""
     found: dict[str, str] = {}
     for text in texts:
         role, equals, value = text.partition("=")
         if not equals or not value:
-            raise InputError(f"{option} {text}", wanted=f"{option} ROLE=... with one of {', '.join(ROLES)}")
+            raise InputError(f"{option} {text}", wanted=f"{option} ROLE=... with one of {', '.join(keys)}")
         if role in found:
             raise InputError(f"{option} names the role '{role}' twice", wanted="each role once")
         found[role] = value
     return found
+
+
+def load_motion(
+    path: str,
+    mapping: Sequence[str],
+    conditions: Sequence[str],
+    name_pattern: str | None,
+    reading: Sequence[str],
+) -> Recording:
+    """Load the one recording over which a force is predicted; its own force is not read."""
+    return load(
+        path,
+        map=pairs("--map", mapping),
+        name_pattern=name_pattern,
+        read=pairs("--read", reading, ReadOptions._fields),
+        require_force=False,
+        **pairs("--set", conditions),
+    )
 
 
 def load_all(
@@ -130,15 +147,17 @@ def load_all(
     mapping: Sequence[str],
     conditions: Sequence[str],
     name_pattern: str | None,
-    *,
-    require_force: bool = True,
+    reading: Sequence[str] = (),
 ) -> list[Recording]:
     """Load the recordings of a command."""
-    columns, fixed = pairs("--map", mapping), pairs("--set", conditions)
-    return [
-        load(path, map=columns, name_pattern=name_pattern, require_force=require_force, **fixed)
-        for path in paths
-    ]
+    fixed: dict[str, Any] = pairs("--set", conditions)  # roles: checked there
+    return load_campaign(
+        paths,
+        map=pairs("--map", mapping),
+        name_pattern=name_pattern,
+        read=pairs("--read", reading, ReadOptions._fields),
+        **fixed,
+    )
 
 
 def read_bounds(texts: Iterable[str]) -> dict[str, tuple[float, float]]:
@@ -166,6 +185,19 @@ def read_interval(text: str) -> tuple[float | None, float | None]:
         return interval[0], interval[1]
     except ValueError:
         raise InputError(f"--cut {text}", wanted="--cut START:STOP in seconds, either may be empty") from None
+
+
+def read_seeds(text: str) -> list[int]:
+    """Read ``FIRST:END`` as whole numbers, the end left out."""
+    first, colon, end = text.partition(":")
+    try:
+        seeds = list(range(int(first), int(end)))
+        if not colon or not 0 < len(seeds) <= _MOST_SEEDS:
+            raise ValueError
+        return seeds
+    except (ValueError, OverflowError, MemoryError):
+        wanted = f"--seeds FIRST:END with two whole numbers, 1 to {_MOST_SEEDS} seeds"
+        raise InputError(f"--seeds {text}", wanted=wanted) from None
 
 
 def unique_names(names: Sequence[str]) -> list[str]:

@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from .arguments import WHOLE
+from .arguments import WHOLE, config_option
 
 _MODELS = ("sinh", "bouc_wen")
 _OPTIMIZERS = ("mafsa", "afsa", "pso")
@@ -22,15 +22,21 @@ Results = dict[tuple[str, str, str], Any]
     "--iterations", type=WHOLE, default=100, show_default=True, help="Of each swarm; the paper has 300."
 )
 @click.option("--threads", type=WHOLE, help="Threads; all cores by default.")
+@config_option
 def demo(out: Path | None, seed: int, iterations: int, threads: int | None) -> None:
     """Identify the paper's twelve tests with both models and all three swarms.
 
     The paper's recordings are not public: this is a simulated replica of its campaign.
-    """
+
+    \b
+    Example:
+      mre-core demo --iterations 300 --out demo
+    """  # noqa: D301  # \b keeps the lines
     from contextlib import nullcontext
 
     from ..output import Stage, staged
     from ..replica import CAMPAIGN, record
+    from .settings import write_settings
     from .show import console
 
     recordings = [record(condition, seed) for condition in CAMPAIGN]
@@ -38,7 +44,8 @@ def demo(out: Path | None, seed: int, iterations: int, threads: int | None) -> N
     with place as stage:
         results = _identify_all(recordings, seed, iterations, threads)
         _print(console(), results)
-        if isinstance(stage, Stage):
+        if isinstance(stage, Stage) and out is not None:
+            write_settings(stage, out)
             _write(stage, recordings, results)
 
 
@@ -48,7 +55,7 @@ def _identify_all(recordings: list[Any], seed: int, iterations: int, threads: in
     from threading import Event
 
     from ..identify import identify
-    from .show import progress
+    from .progress import progress
 
     stop = Event()
     jobs = [
@@ -70,6 +77,7 @@ def _identify_all(recordings: list[Any], seed: int, iterations: int, threads: in
         )
 
     found: Results = {}
+    evaluations = 0
     with (
         ThreadPoolExecutor(threads or os.cpu_count()) as pool,
         progress(len(jobs), quiet=False) as (_, on_progress),
@@ -78,7 +86,8 @@ def _identify_all(recordings: list[Any], seed: int, iterations: int, threads: in
         try:
             for future in as_completed(waiting):
                 found[waiting[future]] = future.result()
-                on_progress(len(found), future.result().result.nfev, future.result().result.fitness)
+                evaluations += future.result().result.nfev
+                on_progress(len(found), evaluations, future.result().result.fitness)
         except BaseException:
             stop.set()  # Ctrl-C reaches this thread only; the others ask here
             pool.shutdown(cancel_futures=True)

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from .arguments import WHOLE, common_options, load_all, read_interval
+from .arguments import WHOLE, common_options, load_all, read_interval, report_options
 
 if TYPE_CHECKING:
     from ..diagnosis import Diagnosis, History
@@ -29,11 +29,14 @@ if TYPE_CHECKING:
     show_default=True,
     help="Chance of naming something where nothing is missing.",
 )
+@click.option(
+    "--without", multiple=True, metavar="EFFECT", help="Rule an effect out; may be given several times."
+)
 @click.option("--seed", type=WHOLE, help="Same seed, same result.")
 @click.option("--cut", metavar="START:STOP", help="Keep this part of every recording, in s.")
 @click.option("--exclude", metavar="PARTS", help="start_transient, stop_transient or both, with a comma.")
 @click.option("--threads", type=WHOLE, help="Threads; all cores by default.")
-@click.option("--quiet", is_flag=True, help="No progress, no tables.")
+@report_options
 @common_options
 def diagnose(
     recordings: tuple[str, ...],
@@ -42,12 +45,14 @@ def diagnose(
     cut: str | None,
     exclude: str | None,
     quiet: bool,
+    as_json: bool,
     mapping: tuple[str, ...],
     conditions: tuple[str, ...],
     name_pattern: str | None,
+    reading: tuple[str, ...],
     **options: Any,
 ) -> None:
-    """Say what the model MODEL leaves out of RECORDINGS (CSV files): what, where, how much.
+    """Say what the model MODEL leaves out of RECORDINGS (files or folders): what, where, how much.
 
     \b
     Examples:
@@ -58,10 +63,12 @@ def diagnose(
     from contextlib import nullcontext
 
     from ..diagnose import diagnose as run
-    from ..output import Stage, staged
-    from .show import print_diagnosis, spinner
+    from ..output import Stage, staged, to_json
+    from .progress import spinner
+    from .settings import write_settings
+    from .show import print_diagnosis
 
-    loaded = load_all(recordings, mapping, conditions, name_pattern)
+    loaded = load_all(recordings, mapping, conditions, name_pattern, reading)
     if cut is not None:
         start, stop = read_interval(cut)
         loaded = [recording.cut(start, stop) for recording in loaded]
@@ -72,9 +79,12 @@ def diagnose(
     with place as stage:
         with spinner("diagnosing", quiet=quiet):
             found = run(loaded, base, **options)
-        if isinstance(stage, Stage):
+        if isinstance(stage, Stage) and out is not None:
+            write_settings(stage, out, seed=found.seed)
             _write(stage, found)
-    if not quiet:
+    if as_json:
+        click.echo(to_json(found.to_dict()), nl=False)
+    elif not quiet:
         print_diagnosis(found)
 
 

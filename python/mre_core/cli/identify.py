@@ -5,7 +5,15 @@ from typing import Any
 
 import click
 
-from .arguments import WHOLE, common_options, load_all, read_bounds, read_interval, unique_names
+from .arguments import (
+    WHOLE,
+    common_options,
+    load_all,
+    read_bounds,
+    read_interval,
+    report_options,
+    unique_names,
+)
 
 
 @click.command()
@@ -35,7 +43,7 @@ from .arguments import WHOLE, common_options, load_all, read_bounds, read_interv
 @click.option("--profile", is_flag=True, help="Intervals by profile likelihood as well.")
 @click.option("--bootstrap", type=WHOLE, metavar="N", help="Intervals by N refits of simulated repetitions.")
 @click.option("--no-figures", is_flag=True, help="Write no figures.")
-@click.option("--quiet", is_flag=True, help="No progress, no tables.")
+@report_options
 @common_options
 def identify(
     recordings: tuple[str, ...],
@@ -51,12 +59,14 @@ def identify(
     bootstrap: int | None,
     no_figures: bool,
     quiet: bool,
+    as_json: bool,
     mapping: tuple[str, ...],
     conditions: tuple[str, ...],
     name_pattern: str | None,
+    reading: tuple[str, ...],
     **options: Any,
 ) -> int:
-    """Identify a model from RECORDINGS (CSV files).
+    """Identify a model from RECORDINGS (files or folders).
 
     Recordings at one constant current share their parameters; each current gets its own.
 
@@ -70,13 +80,16 @@ def identify(
     """  # noqa: D301  # \b keeps the lines
     from contextlib import nullcontext
 
+    from ..describe import describe
     from ..identify import SWARMS
     from ..identify import identify as run
     from ..model import Model
-    from ..output import Stage, staged
-    from .show import print_identification, progress
+    from ..output import Stage, staged, to_json
+    from .progress import progress
+    from .settings import write_settings
+    from .show import print_identification
 
-    loaded = load_all(recordings, mapping, conditions, name_pattern)
+    loaded = load_all(recordings, mapping, conditions, name_pattern, reading)
     if cut is not None:
         start, stop = read_interval(cut)
         loaded = [recording.cut(start, stop) for recording in loaded]
@@ -102,9 +115,12 @@ def identify(
             **options,
         )
         more = _more(found, profile, bootstrap, options.get("threads"))
-        if isinstance(stage, Stage):
+        if isinstance(stage, Stage) and out is not None:
+            write_settings(stage, out, seed=found.seed)
             _write(stage, found, more, loaded, figures=not no_figures)
-    if not quiet:
+    if as_json:
+        click.echo(to_json(describe(found, *more)), nl=False)
+    elif not quiet:
         print_identification(found, *more)
     return 130 if found.interrupted else 0
 

@@ -43,6 +43,7 @@ def loops(
     mapping: tuple[str, ...],
     conditions: tuple[str, ...],
     name_pattern: str | None,
+    reading: tuple[str, ...],
 ) -> None:
     """Measure the hysteresis loops in RECORDINGS (files of cyclic tests).
 
@@ -60,7 +61,7 @@ def loops(
     from ..output import staged
 
     given = None if model is None else Model.load(model)
-    loaded = load_all(recordings, mapping, conditions, name_pattern)
+    loaded = load_all(recordings, mapping, conditions, name_pattern, reading)
     if cut is not None:
         start, stop = read_interval(cut)
         loaded = [recording.cut(start, stop) for recording in loaded]

@@ -13,11 +13,18 @@ import click
 from .. import __version__
 from ..errors import MreError, one_line
 from .arguments import spread
+from .batch import batch
 from .demo import demo
 from .diagnose import diagnose
 from .identify import identify
+from .inspect import inspect
+from .laws import laws
 from .loops import loops
+from .next_test import next_test
+from .schema import schema
 from .simulate import simulate
+from .study import study
+from .trial import trial
 
 
 @click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
@@ -28,14 +35,18 @@ def cli() -> None:
     \b
     Examples:
       mre-core demo
+      mre-core inspect test.txt --write-config test.toml
       mre-core identify test.csv --model sinh --out result
       mre-core diagnose test.csv --base sinh --out result
       mre-core loops test.csv --model result/model.json --out loops
       mre-core simulate result/model.json earthquake.csv --out predicted.csv
+      mre-core laws *.csv --model sinh --out result
+      mre-core batch recordings --model sinh --out results
     """  # noqa: D301  # \b keeps the lines
 
 
-for command in (identify, diagnose, loops, simulate, demo):
+COMMANDS = (inspect, identify, diagnose, loops, laws, next_test, batch, simulate, demo, study, trial, schema)
+for command in COMMANDS:
     cli.add_command(command)
 
 

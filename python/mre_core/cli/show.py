@@ -1,7 +1,6 @@
-"""What a person sees: progress on a terminal, tables on standard output."""
+"""What a person sees: tables on standard output."""
 
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -11,9 +10,6 @@ if TYPE_CHECKING:
     from ..identify import Identification
     from ..results import SwarmResult
     from ..uncertainty import Bootstrap, Profile
-
-OnLevel = Callable[[int, int, float | None], None]
-OnProgress = Callable[[int, int, float], None]
 
 _MOST = 12
 """Parameters of an effect that are shown; those of the measurement are several a recording."""
@@ -25,56 +21,6 @@ def console() -> "Console":
 
     out = Console(highlight=False)
     return out if out.is_terminal else Console(highlight=False, width=120)
-
-
-@contextmanager
-def progress(iterations: int, *, quiet: bool) -> Iterator[tuple[OnLevel, OnProgress]]:
-    """Show a bar on standard error while a job runs, if that is a terminal."""
-    from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
-
-    err = Console(stderr=True)
-    bar = Progress(
-        TextColumn("{task.description}"),
-        BarColumn(),
-        TextColumn("{task.fields[note]}"),
-        TimeElapsedColumn(),
-        TimeRemainingColumn(),
-        console=err,
-        transient=True,
-        disable=quiet or not err.is_terminal,
-    )
-    task = bar.add_task("identifying", total=iterations, note="")
-
-    def on_level(number: int, count: int, current: float | None) -> None:
-        what = "" if current is None else f" {current:g} A"
-        bar.reset(task, description=f"identifying{what} ({number + 1} of {count})", note="")
-
-    def on_progress(iteration: int, evaluations: int, best: float) -> None:
-        bar.update(task, completed=iteration, note=f"{evaluations} evaluations, rms {best**0.5:.4g} N")
-
-    with bar:
-        yield on_level, on_progress
-
-
-@contextmanager
-def spinner(what: str, *, quiet: bool) -> Iterator[None]:
-    """Show what goes on and for how long on standard error, if that is a terminal."""
-    from rich.console import Console
-    from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
-
-    err = Console(stderr=True)
-    turning = Progress(
-        SpinnerColumn(),
-        TextColumn("{task.description}"),
-        TimeElapsedColumn(),
-        console=err,
-        transient=True,
-        disable=quiet or not err.is_terminal,
-    )
-    turning.add_task(what, total=None)
-    with turning:
-        yield
 
 
 def print_diagnosis(found: "Diagnosis") -> None:

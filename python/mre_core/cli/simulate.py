@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from .arguments import common_options, load_all
+from .arguments import common_options, load_motion
 
 
 @click.command()
@@ -19,8 +19,9 @@ def simulate(
     mapping: tuple[str, ...],
     conditions: tuple[str, ...],
     name_pattern: str | None,
+    reading: tuple[str, ...],
 ) -> None:
-    """Predict the force of MODEL (a model.json) over the motion in RECORDING (a CSV file).
+    """Predict the force of MODEL (a model.json) over the motion in RECORDING (a file).
 
     The file gets the columns time_s and force_N, one row for each row of the recording, whose own
     force is not read.
@@ -33,7 +34,7 @@ def simulate(
     from ..model import simulate as run
     from ..output import write_file
 
-    (motion,) = load_all([recording], mapping, conditions, name_pattern, require_force=False)
+    motion = load_motion(recording, mapping, conditions, name_pattern, reading)
     force = run(Model.load(model), motion)
 
     def write(path: Path) -> None:

@@ -26,7 +26,7 @@ mod _core {
     #[pymodule_export]
     use crate::device::{check, classical, models, parameters, simulate};
     #[pymodule_export]
-    use crate::diagnose::diagnose_recordings;
+    use crate::diagnose::{diagnose_recordings, excitation};
     #[pymodule_export]
     use crate::effects::{catalogue, check_effect, effect_parameters};
     #[pymodule_export]

@@ -14,7 +14,7 @@ use crate::array;
 use crate::bounds::by_name;
 use crate::error::{setting, to_python};
 use crate::recording::Recording;
-use crate::run::{Link, in_pool};
+use crate::run::{Link, here, in_pool};
 use crate::stream;
 
 /// Fitness of a model's parameters on recordings: eq. 5 of Yu, Li and Li (ISARC 2014); immutable.
@@ -171,12 +171,17 @@ impl Problem {
         threads: Option<i64>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (rows, single) = array::rows("x", x, self.inner.parameters().len())?;
-        let costs = in_pool(py, threads, None, true, |link| {
-            let mut costs = vec![0.0; rows.len() / self.inner.parameters().len()];
+        let count = rows.len() / self.inner.parameters().len();
+        let job = |link: &Link| {
+            let mut costs = vec![0.0; count];
             self.inner.fitness(&rows, &mut costs, link.cancel());
             costs
-        })?
-        .0;
+        };
+        let costs = if self.inner.on_one_thread(count) {
+            here(py, threads, job)?
+        } else {
+            in_pool(py, threads, None, true, job)?.0
+        };
         if single {
             return Ok(costs[0].into_pyobject(py)?.into_any());
         }

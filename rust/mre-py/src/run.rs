@@ -1,6 +1,7 @@
-//! The only door for long work: detached from the interpreter, in its own thread pool, with Ctrl-C
-//! answered and progress reported from the calling thread.
+//! The only doors for work, detached from the interpreter: a small job on the calling thread, a long one in
+//! its own thread pool, with Ctrl-C answered and progress reported from the calling thread.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -56,8 +57,30 @@ pub(crate) enum Ended {
     ByCallback,
 }
 
+/// Run a job on the calling thread: for one that no pool would make shorter, and that takes no part in
+/// Ctrl-C, because nothing could end it early.
+pub(crate) fn here<R: Send>(
+    py: Python<'_>,
+    threads: Option<i64>,
+    job: impl FnOnce(&Link) -> R + Send,
+) -> PyResult<R> {
+    count(threads)?;
+    Ok(py.detach(|| job(&Link::default())))
+}
+
+/// The number of threads for rayon.
+fn count(threads: Option<i64>) -> PyResult<usize> {
+    match threads {
+        None => Ok(0), // rayon: as many as the machine has
+        Some(n @ 1..=1024) => Ok(n as usize),
+        Some(n) => Err(setting("threads", n, "a whole number from 1 to 1024")),
+    }
+}
+
 /// Run a job in a pool of its own. A signal or an exception in the callback stops it and is raised,
 /// unless the signal is Ctrl-C and `raise` is false.
+///
+/// No pool is kept: its sleeping threads would be lost, with their locks, in a process that is forked.
 pub(crate) fn in_pool<R: Send>(
     py: Python<'_>,
     threads: Option<i64>,
@@ -65,24 +88,19 @@ pub(crate) fn in_pool<R: Send>(
     raise: bool,
     job: impl FnOnce(&Link) -> R + Send,
 ) -> PyResult<(R, Ended)> {
-    let threads = match threads {
-        None => 0, // rayon: as many as the machine has
-        Some(n @ 1..=1024) => n as usize,
-        Some(n) => return Err(setting("threads", n, "a whole number from 1 to 1024")),
-    };
     let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
+        .num_threads(count(threads)?)
         .build()
         .map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
     let link = Link::default();
-    let (result, failure, mut ended) = py.detach(|| {
-        std::thread::scope(|scope| {
+    let mut result = None;
+    let (failure, mut ended) = py.detach(|| {
+        pool.in_place_scope(|scope| {
             let (done, wait) = channel::<()>();
-            let link = &link;
-            let worker = scope.spawn(move || {
-                let result = pool.install(|| job(link));
+            let (link, result) = (&link, &mut result);
+            scope.spawn(move |_| {
+                *result = catch_unwind(AssertUnwindSafe(|| job(link))).ok();
                 drop(done);
-                result
             });
             let (mut failure, mut ended) = (None, Ended::ByItself);
             while wait.recv_timeout(POLL) == Err(RecvTimeoutError::Timeout) {
@@ -97,10 +115,10 @@ pub(crate) fn in_pool<R: Send>(
                     }
                 }
             }
-            (worker.join(), failure, ended)
+            (failure, ended)
         })
     });
-    let Ok(result) = result else {
+    let Some(result) = result else {
         return Err(PyRuntimeError::new_err("a worker thread failed; please report this with its input"));
     };
     let last = if failure.is_none() { attend(py, &link, callback).err() } else { failure };

@@ -168,12 +168,8 @@ impl Swarm {
         let mut state = self.lock()?;
         let swarm: &mut dyn Core = &mut **state;
         let (reason, ended) = in_pool(py, threads, callback.as_ref(), raise, |link| {
-            let mut physical = Vec::new();
-            let mut evaluate = |unit: &[f64], costs: &mut [f64]| {
-                physical.resize(unit.len(), 0.0);
-                self.bounds.to_physical(unit, &mut physical);
-                problem.inner.fitness(&physical, costs, link.cancel());
-            };
+            let mut evaluate =
+                |unit: &[f64], costs: &mut [f64]| problem.inner.fitness_in_box(unit, costs, link.cancel());
             let mut monitor = link;
             run(swarm, &mut evaluate, d, &budget, &mut monitor)
         })?;

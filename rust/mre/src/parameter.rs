@@ -86,16 +86,24 @@ impl Bounds {
 
     /// From rows of the unit box to rows of parameters. Never outside the box, and exact at its ends.
     pub fn to_physical(&self, unit: &[f64], out: &mut [f64]) {
-        let d = self.len();
-        for (unit, out) in unit.chunks_exact(d).zip(out.chunks_exact_mut(d)) {
-            for (i, u) in unit.iter().enumerate() {
-                let (low, high) = (self.lower[i], self.upper[i]);
-                let value = match self.scale[i] {
-                    Scale::Linear => low + u * (high - low),
-                    Scale::Log => low * (high / low).powf(*u),
-                };
-                out[i] = if *u >= 1.0 { high } else { value.clamp(low, high) };
+        for i in 0..self.len() {
+            let (low, high) = (self.lower[i], self.upper[i]);
+            match self.scale[i] {
+                Scale::Linear => self.place(i, unit, out, |u| low + u * (high - low)),
+                Scale::Log => self.place(i, unit, out, |u| low * (high / low).powf(u)),
             }
+        }
+    }
+
+    /// One parameter of all rows.
+    #[inline]
+    fn place(&self, i: usize, unit: &[f64], out: &mut [f64], value: impl Fn(f64) -> f64) {
+        let (d, low, high) = (self.len(), self.lower[i], self.upper[i]);
+        for (unit, out) in unit.chunks_exact(d).zip(out.chunks_exact_mut(d)) {
+            let u = unit[i];
+            let wished = if u < 1.0 { value(u) } else { high };
+            let above = if wished > low { wished } else { low };
+            out[i] = if above < high { above } else { high };
         }
     }
 

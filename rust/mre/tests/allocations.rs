@@ -73,17 +73,10 @@ fn fish(iterations: usize, search: Search, neighbourhood: Neighbourhood) -> Fish
 fn allocations(problem: &Problem, make: impl Fn() -> Box<dyn Swarm> + Send) -> usize {
     let d = problem.bounds().len();
     let never = AtomicBool::new(false);
-    let mut physical = vec![0.0; 2500 * d];
     with_threads(1, move || {
         let before = ALLOCATIONS.get();
         let mut swarm = make();
-        let mut evaluate = |unit: &[f64], costs: &mut [f64]| {
-            let physical = &mut physical[..unit.len()];
-            for (unit, physical) in unit.chunks_exact(d).zip(physical.chunks_exact_mut(d)) {
-                problem.bounds().to_physical(unit, physical);
-            }
-            problem.fitness(physical, costs, &never);
-        };
+        let mut evaluate = |unit: &[f64], costs: &mut [f64]| problem.fitness_in_box(unit, costs, &never);
         run(swarm.as_mut(), &mut evaluate, d, &Budget::default(), &mut |_| true);
         ALLOCATIONS.get() - before
     })

@@ -26,20 +26,35 @@ pub struct Absorbed {
 
 /// Effects with less than an even chance of detection even when they carry a twentieth of the force's rms.
 pub(super) fn absorbed(named: &Named, campaign: &Campaign, false_alarm: f64) -> Vec<Absorbed> {
+    hidden_among(&named.scores, ids_of(&named.scores).len(), campaign, false_alarm)
+}
+
+/// Ids of the effects of some scores, each once.
+pub(super) fn ids_of(scores: &[Score]) -> Vec<&'static str> {
+    let mut ids: Vec<&'static str> = scores.iter().map(|s| s.effect.about().effect).collect();
+    ids.dedup();
+    ids
+}
+
+/// The same among the effects of some scores, where so many effects are tested in all.
+pub(super) fn hidden_among(
+    scores: &[Score],
+    effects: usize,
+    campaign: &Campaign,
+    false_alarm: f64,
+) -> Vec<Absorbed> {
     let squares: Vec<f64> = campaign
         .recordings()
         .iter()
         .flat_map(|r| r.force().unwrap_or_default().iter().map(|f| f * f))
         .collect();
     let size = SHARE * mean(&squares).sqrt();
-    let mut ids: Vec<&'static str> = named.scores.iter().map(|s| s.effect.about().effect).collect();
-    ids.dedup();
-    let effects = ids.len() as f64;
-    ids.iter()
+    ids_of(scores)
+        .into_iter()
         .filter_map(|id| {
-            let laws: Vec<&Score> = named.scores.iter().filter(|s| s.effect.about().effect == *id).collect();
+            let laws: Vec<&Score> = scores.iter().filter(|s| s.effect.about().effect == id).collect();
             let seen = |s: &Score| {
-                let tests = effects * laws.len() as f64 * s.tests;
+                let tests = effects as f64 * laws.len() as f64 * s.tests;
                 let threshold = quantile(false_alarm / tests, s.freedom.min(3));
                 s.trace.0 * size * size / threshold
             };

@@ -9,6 +9,7 @@ use super::held::Held;
 use super::least_squares::{Data, Fitted, Point, refine, refine_at_most};
 use super::noise::Noise;
 use super::screen::{Null, Score};
+use super::settings::Settings;
 use crate::assembly::Assembly;
 use crate::effect::{CATALOGUE, Effect};
 
@@ -79,14 +80,17 @@ pub(super) fn noise_left(assembly: &Assembly, data: Data, fitted: &Fitted) -> No
 }
 
 /// Scores of every law beside a fitted model.
-pub(super) fn scores(assembly: &Assembly, data: Data, unit: &[f64], seed: u64) -> Vec<Score> {
+pub(super) fn scores(assembly: &Assembly, data: Data, unit: &[f64], settings: &Settings) -> Vec<Score> {
     let Some(null) = Null::new(assembly, data, unit) else { return Vec::new() };
     let named = |e: &&'static dyn Effect| {
         assembly.effects().iter().any(|known| known.about().effect == e.about().effect)
     };
-    let laws: Vec<&'static dyn Effect> = CATALOGUE.iter().copied().filter(|e| !named(e)).collect();
-    let mut found: Vec<Score> =
-        laws.into_par_iter().enumerate().filter_map(|(i, e)| null.score(e, seed ^ i as u64)).collect();
+    let laws: Vec<&'static dyn Effect> = settings.laws.iter().copied().filter(|e| !named(e)).collect();
+    let mut found: Vec<Score> = laws
+        .into_par_iter()
+        .enumerate()
+        .filter_map(|(i, e)| null.score(e, settings.seed ^ i as u64))
+        .collect();
     let slow = drift::chance(&null.residuals());
     for score in found.iter_mut().filter(|s| s.effect.slow() && s.p_value < slow) {
         score.p_value = slow;

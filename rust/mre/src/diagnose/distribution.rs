@@ -62,6 +62,12 @@ fn ln_gamma(x: f64) -> f64 {
     0.5 * std::f64::consts::TAU.ln() + (x + 0.5) * t.ln() - t + sum.ln()
 }
 
+/// `P(X > x)` of a standard normal variable.
+pub(super) fn normal_tail(x: f64) -> f64 {
+    let beyond = 0.5 * chi_square_tail(x * x, 1);
+    if x > 0.0 { beyond } else { 1.0 - beyond }
+}
+
 /// A standard normal deviate (Box and Muller 1958).
 pub(super) fn normal(stream: &mut ChaCha8Rng) -> f64 {
     let mut uniform = || ((stream.next_u64() >> 11) as f64 + 0.5) / (1_u64 << 53) as f64;
@@ -83,6 +89,8 @@ mod tests {
         ] {
             assert!((chi_square_tail(x, freedom) - p).abs() < 1e-12, "{x} {freedom}");
         }
+        assert!((normal_tail(1.959_963_984_540_054) - 0.025).abs() < 1e-12);
+        assert!((normal_tail(-1.959_963_984_540_054) - 0.975).abs() < 1e-12);
         assert!((chi_square_tail(200.0, 1) / 2.088_487_583_762_545e-45 - 1.0).abs() < 1e-9);
     }
 }

@@ -5,60 +5,106 @@ use crate::effect::Scene;
 /// Relaxation times of the memories, s.
 const MEMORIES: [f64; 5] = [0.01, 0.05, 0.2, 1.0, 5.0];
 
+/// What a feature depends on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum On {
+    /// Displacement alone.
+    Displacement,
+    /// Velocity alone.
+    Velocity,
+    /// Displacement and velocity together.
+    State,
+    /// Force.
+    Force,
+    /// Acceleration.
+    Acceleration,
+    /// Motion that fades from memory with this time, s.
+    Memory(f64),
+    /// Path since the last reversal, as a share of the largest displacement.
+    Reversal(f64),
+    /// Amplitude of the motion now or lately.
+    Amplitude,
+    /// Largest displacement so far.
+    Largest,
+    /// Travelled path.
+    Path,
+    /// Power dissipated lately.
+    Heat,
+    /// Time.
+    Time,
+    /// Coil current.
+    Current,
+    /// Something that differs from recording to recording.
+    Recording,
+}
+
+/// A feature of one recording.
+pub(super) struct Feature {
+    pub(super) on: On,
+    pub(super) column: Vec<f64>,
+}
+
 /// Features of one recording; the same number for every recording of a campaign.
-pub(super) fn features(scene: &Scene) -> Vec<Vec<f64>> {
+pub(super) fn features(scene: &Scene) -> Vec<Feature> {
     let sizes = scene.sizes;
     let x: Vec<f64> = scene.displacement.iter().map(|x| x / sizes.displacement).collect();
     let v: Vec<f64> = scene.velocity.iter().map(|v| v / sizes.velocity).collect();
     let f: Vec<f64> = scene.force.iter().map(|f| f / sizes.force).collect();
     let n = x.len();
-    let each = |g: &dyn Fn(usize) -> f64| (0..n).map(g).collect::<Vec<f64>>();
-    let mut found: Vec<Vec<f64>> = vec![
-        each(&|i| x[i] * x[i]),
-        each(&|i| x[i].powi(3)),
-        each(&|i| x[i].powi(5)),
-        each(&|i| x[i] * v[i]),
-        each(&|i| x[i] * x[i] * v[i]),
-        each(&|i| x[i] * v[i] * v[i]),
-        each(&|i| x[i].abs() * v[i]),
-        each(&|i| v[i] * v[i]),
-        each(&|i| v[i] * v[i].abs()),
-        each(&|i| v[i].powi(3)),
-        each(&|i| (20.0 * v[i]).tanh()),
-        each(&|i| (3.0 * v[i]).tanh()),
-        each(&|i| (x[i].abs() - 0.6).max(0.0).copysign(x[i])),
-        each(&|i| (x[i].abs() - 0.85).max(0.0).copysign(x[i])),
-        each(&|i| x[i] * (-(x[i] / 0.15).powi(2)).exp()),
-        each(&|i| v[i] * (-(x[i] / 0.15).powi(2)).exp()),
-        each(&|i| f[i] * f[i]),
-        each(&|i| f[i].powi(3)),
-        each(&|i| scene.acceleration[i]),
-    ];
+    let mut found: Vec<Feature> = Vec::new();
+    let mut add = |on: On, g: &dyn Fn(usize) -> f64| {
+        found.push(Feature { on, column: (0..n).map(g).collect() });
+    };
+    let near = |i: usize| (-(x[i] / 0.15).powi(2)).exp();
+    add(On::Displacement, &|i| x[i] * x[i]);
+    add(On::Displacement, &|i| x[i].powi(3));
+    add(On::Displacement, &|i| x[i].powi(5));
+    add(On::State, &|i| x[i] * v[i]);
+    add(On::State, &|i| x[i] * x[i] * v[i]);
+    add(On::State, &|i| x[i] * v[i] * v[i]);
+    add(On::State, &|i| x[i].abs() * v[i]);
+    add(On::Velocity, &|i| v[i] * v[i]);
+    add(On::Velocity, &|i| v[i] * v[i].abs());
+    add(On::Velocity, &|i| v[i].powi(3));
+    add(On::Velocity, &|i| (20.0 * v[i]).tanh());
+    add(On::Velocity, &|i| (3.0 * v[i]).tanh());
+    add(On::Displacement, &|i| (x[i].abs() - 0.6).max(0.0).copysign(x[i]));
+    add(On::Displacement, &|i| (x[i].abs() - 0.85).max(0.0).copysign(x[i]));
+    add(On::Displacement, &|i| x[i] * near(i));
+    add(On::State, &|i| v[i] * near(i));
+    add(On::Force, &|i| f[i] * f[i]);
+    add(On::Force, &|i| f[i].powi(3));
+    add(On::Acceleration, &|i| scene.acceleration[i]);
     for memory in MEMORIES {
-        found.push(low_passed(scene, &v, memory));
+        found.push(Feature { on: On::Memory(memory), column: low_passed(scene, &v, memory) });
     }
-    for yield_displacement in [0.01, 0.1, 0.4] {
-        found.push(friction(&x, yield_displacement));
+    for yields in [0.01, 0.1, 0.4] {
+        found.push(Feature { on: On::Reversal(yields), column: friction(&x, yields) });
     }
-    for state in states(scene, &x, &v) {
-        found.push(each(&|i| state[i] * x[i]));
-        found.push(each(&|i| state[i] * v[i]));
+    for (on, state) in states(scene, &x, &v) {
+        for motion in [&x, &v] {
+            let column = state.iter().zip(motion).map(|(s, m)| s * m).collect();
+            found.push(Feature { on, column });
+        }
     }
     if let (Some(current), Some((low, high))) = (scene.current, sizes.current)
         && sizes.current_varies
     {
-        let share = |i: usize| (current[i] - low) / (high - low);
-        let slow = low_passed(scene, &(0..n).map(share).collect::<Vec<f64>>(), 0.2);
-        for q in [each(&|i| share(i).powi(2)), slow] {
-            found.push(each(&|i| q[i] * x[i]));
-            found.push(each(&|i| q[i] * v[i]));
+        let share: Vec<f64> = current.iter().map(|i| (i - low) / (high - low)).collect();
+        let slow = low_passed(scene, &share, 0.2);
+        let square: Vec<f64> = share.iter().map(|s| s * s).collect();
+        for q in [square, slow] {
+            for motion in [&x, &v] {
+                let column = q.iter().zip(motion).map(|(q, m)| q * m).collect();
+                found.push(Feature { on: On::Current, column });
+            }
         }
     }
     found
 }
 
 /// States of the history: amplitude now and before, largest so far, path, heat, time.
-fn states(scene: &Scene, x: &[f64], v: &[f64]) -> Vec<Vec<f64>> {
+fn states(scene: &Scene, x: &[f64], v: &[f64]) -> Vec<(On, Vec<f64>)> {
     let time = scene.time;
     let amplitude = |forget: f64| {
         scene.trace(0.0, |a, i| (a * (-(time[i] - time[i - 1]) / forget).exp()).max(x[i].abs()))
@@ -66,12 +112,12 @@ fn states(scene: &Scene, x: &[f64], v: &[f64]) -> Vec<Vec<f64>> {
     let heat = low_passed(scene, &v.iter().map(|v| v * v).collect::<Vec<f64>>(), 10.0);
     let path = scene.trace(0.0, |p, i| p + (x[i] - x[i - 1]).abs());
     vec![
-        amplitude(0.3),
-        amplitude(3.0),
-        scene.trace(0.0, |m: f64, i| m.max(x[i].abs())),
-        path,
-        heat,
-        time.iter().map(|t| (t - time[0]) / scene.duration()).collect(),
+        (On::Amplitude, amplitude(0.3)),
+        (On::Amplitude, amplitude(3.0)),
+        (On::Largest, scene.trace(0.0, |m: f64, i| m.max(x[i].abs()))),
+        (On::Path, path),
+        (On::Heat, heat),
+        (On::Time, time.iter().map(|t| (t - time[0]) / scene.duration()).collect()),
     ]
 }
 

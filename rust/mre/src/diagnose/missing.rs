@@ -4,7 +4,7 @@
 use nalgebra::DVector;
 
 use super::distribution::chi_square_tail;
-use super::features::features;
+use super::features::{On, features};
 use super::screen::Null;
 
 /// Share of a feature's square that the projection has to leave.
@@ -21,38 +21,101 @@ pub(super) struct Mismatch {
     pub(super) excess: f64,
 }
 
-impl Null<'_> {
-    /// Test the features.
+impl Mismatch {
+    /// No test could be made.
+    pub(super) const NONE: Self = Self { p_value: 1.0, excess: 0.0 };
+}
+
+/// Projected products of some columns, scaled to unit length.
+pub(super) struct Projected {
+    gram: nalgebra::DMatrix<f64>,
+    right: DVector<f64>,
+}
+
+impl Projected {
+    /// Columns that the projection leaves.
+    fn of(gram: &nalgebra::DMatrix<f64>, right: &DVector<f64>, squares: &[f64], chosen: &[usize]) -> Self {
+        let kept: Vec<usize> =
+            chosen.iter().copied().filter(|i| gram[(*i, *i)] > SMALLEST_SHARE * squares[*i]).collect();
+        let scale: Vec<f64> = kept.iter().map(|i| 1.0 / gram[(*i, *i)].sqrt()).collect();
+        Self {
+            gram: nalgebra::DMatrix::from_fn(kept.len(), kept.len(), |a, b| {
+                gram[(kept[a], kept[b])] * scale[a] * scale[b]
+            }),
+            right: DVector::from_fn(kept.len(), |a, _| right[kept[a]] * scale[a]),
+        }
+    }
+
+    /// What the columns take off together.
+    fn mismatch(self) -> Mismatch {
+        if self.right.is_empty() {
+            return Mismatch::NONE;
+        }
+        let eigen = self.gram.symmetric_eigen();
+        let (mut gain, mut freedom) = (0.0, 0);
+        for (value, vector) in eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()) {
+            if *value > 1e-6 {
+                gain += vector.dot(&self.right).powi(2) / value;
+                freedom += 1;
+            }
+        }
+        if freedom == 0 {
+            return Mismatch::NONE;
+        }
+        Mismatch { p_value: chi_square_tail(gain, freedom), excess: (gain - freedom as f64).max(0.0) }
+    }
+}
+
+/// The features beside a fitted model.
+pub(super) struct Generic {
+    /// What each depends on.
+    on: Vec<On>,
+    gram: nalgebra::DMatrix<f64>,
+    right: DVector<f64>,
+    squares: Vec<f64>,
+}
+
+impl Generic {
+    /// All features together.
     pub(super) fn mismatch(&self) -> Mismatch {
+        self.of(|_| true)
+    }
+
+    /// Those that depend on some things.
+    pub(super) fn of(&self, chosen: impl Fn(On) -> bool) -> Mismatch {
+        let places: Vec<usize> = (0..self.on.len()).filter(|i| chosen(self.on[*i])).collect();
+        Projected::of(&self.gram, &self.right, &self.squares, &places).mismatch()
+    }
+
+    /// What features depend on, each thing once.
+    pub(super) fn things(&self) -> Vec<On> {
+        let mut things: Vec<On> = Vec::new();
+        for on in &self.on {
+            if !things.contains(on) {
+                things.push(*on);
+            }
+        }
+        things
+    }
+}
+
+impl Null<'_> {
+    /// Project the features.
+    pub(super) fn generic(&self) -> Generic {
         let recordings = self.assembly().campaign().recordings().len();
         let own = if (2..=MOST_RECORDINGS).contains(&recordings) { recordings } else { 0 };
-        let count = features(&self.scene(0)).len();
+        let mut on: Vec<On> = features(&self.scene(0)).iter().map(|f| f.on).collect();
+        let count = on.len();
+        on.extend(vec![On::Recording; own]);
         let (gram, right, squares) = self.project(count + own, |r| {
             let scene = self.scene(r);
-            let mut columns: Vec<(usize, Vec<f64>)> = features(&scene).into_iter().enumerate().collect();
+            let mut columns: Vec<(usize, Vec<f64>)> =
+                features(&scene).into_iter().map(|f| f.column).enumerate().collect();
             if own > 0 {
                 columns.push((count + r, scene.force.to_vec()));
             }
             columns
         });
-        let kept: Vec<usize> =
-            (0..count + own).filter(|i| gram[(*i, *i)] > SMALLEST_SHARE * squares[*i]).collect();
-        let scale: Vec<f64> = kept.iter().map(|i| 1.0 / gram[(*i, *i)].sqrt()).collect();
-        let size = kept.len();
-        let correlation =
-            nalgebra::DMatrix::from_fn(size, size, |a, b| gram[(kept[a], kept[b])] * scale[a] * scale[b]);
-        let eigen = correlation.symmetric_eigen();
-        let score = DVector::from_fn(size, |a, _| right[kept[a]] * scale[a]);
-        let (mut gain, mut freedom) = (0.0, 0);
-        for (value, vector) in eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()) {
-            if *value > 1e-6 {
-                gain += vector.dot(&score).powi(2) / value;
-                freedom += 1;
-            }
-        }
-        if freedom == 0 {
-            return Mismatch { p_value: 1.0, excess: 0.0 };
-        }
-        Mismatch { p_value: chi_square_tail(gain, freedom), excess: (gain - freedom as f64).max(0.0) }
+        Generic { on, gram, right, squares }
     }
 }

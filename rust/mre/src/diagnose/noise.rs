@@ -79,6 +79,14 @@ impl Noise {
         Self { filters: vec![filter; recordings] }
     }
 
+    /// The same with one more recording, whose noise is like that of a known one.
+    #[must_use]
+    pub(super) fn with_another_like(&self, r: usize) -> Self {
+        let mut filters = self.filters.clone();
+        filters.push(filters[r].clone());
+        Self { filters }
+    }
+
     /// Number of samples lost at the start of a recording.
     pub fn lost(&self, r: usize) -> usize {
         self.filters[r].coefficients.len()

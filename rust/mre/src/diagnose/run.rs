@@ -3,15 +3,18 @@
 use super::absorbed::{Absorbed, absorbed};
 use super::alternatives::rivals;
 use super::begin::{Begun, Given, begin};
-use super::candidates::{Candidate, by_effect, fit, residuals};
+use super::candidates::{by_effect, residuals};
 use super::intervals::{Estimates, estimates};
-use super::least_squares::{Data, Fitted, Point, refine};
+use super::judge::{Judged, judge};
+use super::least_squares::{Data, Fitted, Point};
 use super::locate::{Finding, locate};
-use super::missing::Mismatch;
+use super::next_test::{Doubt, NextTest, propose};
 use super::normal::Rows;
 use super::prove::{Proof, prove, splits};
 use super::screen::{Null, Score};
 use super::search::{Named, Search, rms};
+use super::settings::Settings;
+use super::unknown::{self, Unknown};
 use super::verdict::{Evidence, Verdict};
 use crate::assembly::{Assembly, Base, Campaign};
 use crate::recording::Recording;
@@ -43,6 +46,12 @@ pub struct Diagnosis<'a> {
     pub evidence: Evidence,
     /// The effects, by how much each improves the held-out fit.
     pub effects: Vec<Effect>,
+    /// What an unexplained mismatch depends on.
+    pub unknown: Option<Unknown>,
+    /// Ids of effects that came nearest to an unexplained mismatch, and are not trusted.
+    pub nearest: Vec<&'static str>,
+    /// The excitation that would best resolve what is in doubt.
+    pub next_test: Option<NextTest>,
     /// Effects that the recordings would hide.
     pub absorbed: Vec<Absorbed>,
     /// Where the base model misses.
@@ -70,8 +79,7 @@ pub fn run<'a>(
     campaign: &'a Campaign,
     base: &'a Base,
     given: &[Given],
-    false_alarm: f64,
-    seed: u64,
+    settings: &Settings,
 ) -> Diagnosis<'a> {
     let rows: Vec<Rows> = campaign.recordings().iter().map(|r| vec![r.scored()]).collect();
     let begun = begin(campaign, base, given, &rows);
@@ -82,47 +90,59 @@ pub fn run<'a>(
         Base::Held(_) | Base::Given(_) => vec![(0..recordings.len()).collect()],
     };
     let whole = splits(&recordings, &groups, false);
-    let search = Search { begun: &begun, rows: &rows, splits: &whole, false_alarm, seed };
-    let mut named = search.run();
-    settle_reference(&mut named, &rows);
-    let data = Data { noise: &named.noise, rows: &rows };
-    let base_fit = refine(&begun.assembly, data, &begun.fitted.unit);
+    let search = Search { begun: &begun, rows: &rows, splits: &whole, settings };
+    let judged = judge(&begun, search.run(), &rows, settings.false_alarm);
+    let Judged { mut named, base: base_fit, evidence, verdict } = judged;
+    let noise = named.noise.clone();
+    let data = Data { noise: &noise, rows: &rows };
     let alone = null(&begun, data, &base_fit);
-    let places = alone.as_ref().map_or_else(Vec::new, |n| locate(n, false_alarm));
-    let mismatch =
-        |n: &Option<Null>| n.as_ref().map_or(Mismatch { p_value: 1.0, excess: 0.0 }, Null::mismatch);
-    let first = mismatch(&alone);
-    let beside = Null::new(&named.assembly, data, &named.fitted.unit);
-    let rest = mismatch(&beside);
-    let absorbed = absorbed(&named, campaign, false_alarm);
-    let explained = (base_fit.left - named.fitted.left).max(0.0);
-    let evidence = Evidence::new(first, rest, explained, &named, rms_change(&named, data), false_alarm);
-    let verdict = evidence.verdict(named.assembly.effects().len() - own);
+    let places = alone.as_ref().map_or_else(Vec::new, |n| locate(n, settings.false_alarm));
+    let unknown = match verdict {
+        Verdict::Unexplained => alone.as_ref().map(unknown::describe),
+        Verdict::PartlyExplained => {
+            Null::new(&named.assembly, data, &named.fitted.unit).as_ref().map(unknown::describe)
+        }
+        Verdict::Adequate | Verdict::MissingPhysics => None,
+    };
+    let absorbed = absorbed(&named, campaign, settings.false_alarm);
+    let noise_rms = rms(&match &named.next {
+        Some(next) => residuals(&next.assembly, data, &next.fitted),
+        None => residuals(&named.assembly, data, &named.fitted),
+    });
+    let mut nearest = Vec::new();
+    if verdict == Verdict::Unexplained {
+        // Names that leave so much are not to be trusted: the base stands alone, and they are only told.
+        nearest = named.assembly.effects()[own..].iter().map(|e| e.about().effect).collect();
+        named.assembly = begun.assembly.clone();
+        named.fitted = base_fit.clone();
+        named.p_values = Vec::new();
+    }
     let sharp = named.assembly.effects().iter().any(|e| e.in_one_recording());
     let judged = if sharp { splits(&recordings, &groups, true) } else { whole.clone() };
     let before = prove(&begun.assembly, &named.noise, &judged, &base_fit);
     let after = prove(&named.assembly, &named.noise, &judged, &named.fitted);
+    let mut doubt = Doubt { rivals: Vec::new(), hidden: absorbed.iter().map(|a| a.effect).collect() };
     let mut effects: Vec<Effect> = (own..named.assembly.effects().len())
         .map(|place| {
             let without = search.drop(&named, place);
             let proof = prove(&without.assembly, &named.noise, &judged, &without.fitted);
+            let rivals = rivals(&search, &named, place, data);
+            let ids = rivals.iter().map(|(id, _)| *id).collect();
+            doubt.rivals.extend(rivals);
             Effect {
                 place,
                 p_value: named.p_values.get(place - own).copied().unwrap_or(0.0),
                 held_out_before: proof.held_out_rms,
                 held_out_after: after.held_out_rms,
-                rivals: rivals(&search, &named, place, data),
+                rivals: ids,
             }
         })
         .collect();
     effects.sort_by(|a, b| b.held_out_before.total_cmp(&a.held_out_before));
+    let next_test = propose(&named, base, &doubt, &rows, settings);
     let force = |assembly: &Assembly, fitted: &Fitted| -> Vec<Vec<f64>> {
         let point = Point::at(assembly, data, fitted.unit.clone());
         point.recordings.into_iter().map(|local| local.force).collect()
-    };
-    let best = match &named.next {
-        Some(next) => residuals(&next.assembly, data, &next.fitted),
-        None => residuals(&named.assembly, data, &named.fitted),
     };
     Diagnosis {
         verdict,
@@ -134,7 +154,10 @@ pub fn run<'a>(
         estimates: estimates(&named.assembly, data, &named.fitted.unit),
         before,
         after,
-        noise_rms: rms(&best),
+        noise_rms,
+        unknown,
+        nearest,
+        next_test,
         base_force: force(&begun.assembly, &base_fit),
         final_force: force(&named.assembly, &named.fitted),
         base: Named {
@@ -151,33 +174,6 @@ pub fn run<'a>(
 
 fn null<'b>(begun: &'b Begun<'b>, data: Data<'b>, fitted: &Fitted) -> Option<Null<'b>> {
     Null::new(&begun.assembly, data, &fitted.unit)
-}
-
-/// Effects refer to the force of the base as it is in the joint model, as a simulation will have it.
-fn settle_reference(named: &mut Named, rows: &[Rows]) {
-    if named.assembly.effects().is_empty() {
-        return;
-    }
-    for _ in 0..3 {
-        let data = Data { noise: &named.noise, rows };
-        let force = named.assembly.base_force(&named.fitted.unit, &named.fitted.coefficients);
-        named.assembly = named.assembly.referring_to(force);
-        let Candidate { assembly, fitted } = fit(named.assembly.clone(), data, &named.fitted.unit);
-        (named.assembly, named.fitted) = (assembly, fitted);
-    }
-}
-
-/// Rms in N of what the best further candidate would change in the force.
-fn rms_change(named: &Named, data: Data) -> f64 {
-    let Some(next) = &named.next else { return 0.0 };
-    let force = |assembly: &Assembly, fitted: &Fitted| {
-        Point::at(assembly, data, fitted.unit.clone()).recordings.into_iter().map(|l| l.force).collect()
-    };
-    let (a, b): (Vec<Vec<f64>>, Vec<Vec<f64>>) =
-        (force(&named.assembly, &named.fitted), force(&next.assembly, &next.fitted));
-    let change: Vec<Vec<f64>> =
-        a.iter().zip(&b).map(|(a, b)| a.iter().zip(b).map(|(a, b)| a - b).collect()).collect();
-    rms(&change)
 }
 
 /// p-value of every effect beside the final model.

@@ -15,8 +15,9 @@ use super::noise::Noise;
 use super::normal::Rows;
 use super::prove::{Split, prove};
 use super::screen::Score;
+use super::settings::Settings;
 use crate::assembly::Assembly;
-use crate::effect::{CATALOGUE, Effect};
+use crate::effect::Effect;
 
 /// Most effects that are named.
 const MOST: usize = 4;
@@ -55,15 +56,14 @@ pub(super) struct Search<'s, 'a> {
     pub(super) begun: &'s Begun<'a>,
     pub(super) rows: &'s [Rows],
     pub(super) splits: &'s [Split],
-    pub(super) false_alarm: f64,
-    pub(super) seed: u64,
+    pub(super) settings: &'s Settings,
 }
 
 impl<'a> Search<'_, 'a> {
-    /// Name the effects.
-    pub(super) fn run(&self) -> Named<'a> {
+    /// Name the effects: the model found, and that of its first effect alone where there are more.
+    pub(super) fn run(&self) -> (Named<'a>, Option<Named<'a>>) {
         let mut here = self.look(self.begun.assembly.clone(), &self.begun.fitted.unit, &self.begun.noise);
-        let mut removed_by_first = None;
+        let (mut first, mut removed_by_first) = (None, None);
         while self.found(&here) < MOST {
             let Some((p_value, next)) = self.significant(&here) else { break };
             let mut wider = self.look(next.assembly.clone(), &next.fitted.unit, &here.noise);
@@ -74,6 +74,7 @@ impl<'a> Search<'_, 'a> {
                     wider = self.best_first(&here, wider, &second);
                 }
                 removed_by_first = Some(self.improvement(&here, &wider).0);
+                first = Some(wider.clone());
             } else {
                 wider = self.best_law(wider);
                 let (removed, noise) = self.improvement(&here, &wider);
@@ -84,7 +85,9 @@ impl<'a> Search<'_, 'a> {
             }
             here = wider;
         }
-        self.without_the_needless(here)
+        let named = self.without_the_needless(here);
+        let more = self.found(&named) > 1;
+        (named, first.filter(|_| more))
     }
 
     /// Number of effects that belong to the base.
@@ -101,14 +104,14 @@ impl<'a> Search<'_, 'a> {
     fn look(&self, assembly: Assembly<'a>, unit: &[f64], noise: &Noise) -> Named<'a> {
         let data = Data { noise, rows: self.rows };
         let Candidate { assembly, fitted: first } = fit(assembly, data, unit);
-        let found = scores(&assembly, data, &first.unit, self.seed);
+        let found = scores(&assembly, data, &first.unit, self.settings);
         let noise = match candidates(&assembly, data, &first.unit, &found, FEW).first() {
             Some(best) => noise_left(&best.assembly, data, &best.fitted),
             None => noise_left(&assembly, data, &first),
         };
         let data = Data { noise: &noise, rows: self.rows };
         let Candidate { assembly, fitted } = fit(assembly, data, &first.unit);
-        let found = scores(&assembly, data, &fitted.unit, self.seed);
+        let found = scores(&assembly, data, &fitted.unit, self.settings);
         let next = candidates(&assembly, data, &fitted.unit, &found, REFITTED).into_iter().next();
         Named { assembly, fitted, noise, scores: found, next, p_values: Vec::new() }
     }
@@ -123,7 +126,7 @@ impl<'a> Search<'_, 'a> {
         let mut adjusted: f64 = 0.0;
         for (turn, (effect, p)) in effects.iter().enumerate() {
             adjusted = adjusted.max(p * (effects.len() - turn) as f64);
-            if adjusted > self.false_alarm {
+            if adjusted > self.settings.false_alarm {
                 return None;
             }
             if *effect == id {
@@ -138,7 +141,7 @@ impl<'a> Search<'_, 'a> {
         let mut best = named;
         for place in self.given()..best.assembly.effects().len() {
             let known = best.assembly.effects()[place];
-            let others = CATALOGUE.iter().copied().filter(|e| {
+            let others = self.settings.laws.iter().copied().filter(|e| {
                 e.about().effect == known.about().effect
                     && e.about() != known.about()
                     && e.applies(best.assembly.campaign().sizes())
@@ -172,7 +175,7 @@ impl<'a> Search<'_, 'a> {
         effect: &'static dyn Effect,
     ) -> Option<Candidate<'a>> {
         let null = super::screen::Null::new(&without.assembly, data, &without.fitted.unit)?;
-        let score = null.score(effect, self.seed)?;
+        let score = null.score(effect, self.settings.seed)?;
         Some(joint(&without.assembly, data, &without.fitted.unit, effect, &null.held(&score).shape))
     }
 
@@ -209,7 +212,7 @@ impl<'a> Search<'_, 'a> {
         let pairs: Vec<(Candidate, Candidate)> = firsts
             .into_par_iter()
             .filter_map(|first| {
-                let found = scores(&first.assembly, data, &first.fitted.unit, self.seed);
+                let found = scores(&first.assembly, data, &first.fitted.unit, self.settings);
                 let best =
                     candidates(&first.assembly, data, &first.fitted.unit, &found, FEW).into_iter().next()?;
                 Some((first, best))

@@ -4,8 +4,11 @@ use super::candidates::by_effect;
 use super::missing::Mismatch;
 use super::search::Named;
 
-/// A rest that carries more than this share of all that can be explained is more than an inexact form.
-const FORM: f64 = 0.1;
+/// Shares of the rest above which names are not trusted, for one effect and for several: effects that are not
+/// there, bent towards one that is in no catalogue, leave more. Several bend further, and so have to fit better.
+const TRUSTED: [f64; 2] = [0.1, 0.01];
+/// A rest above this part of that share is more than an inexact form.
+const FORM: f64 = 0.5;
 
 /// The verdicts of `diagnosis.json`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -73,10 +76,12 @@ impl Evidence {
     }
 
     pub(super) fn verdict(&self, effects: usize) -> Verdict {
+        let trusted = TRUSTED[usize::from(effects > 1)];
         match (effects, self.rest) {
             (0, false) => Verdict::Adequate,
             (0, true) => Verdict::Unexplained,
-            (_, true) if self.share > FORM => Verdict::PartlyExplained,
+            (_, true) if self.share > trusted => Verdict::Unexplained,
+            (_, true) if self.share > FORM * trusted => Verdict::PartlyExplained,
             _ => Verdict::MissingPhysics,
         }
     }

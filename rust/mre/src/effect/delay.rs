@@ -11,13 +11,21 @@ use crate::parameter::Parameter;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct TimeDelay;
 
-/// The series at `time - delay`, by a natural cubic spline; held constant beyond its ends.
+/// The series at `time - delay`, by a natural cubic spline; along its end slopes beyond its ends.
 pub(super) fn delayed(step: f64, series: &[f64], delay: f64) -> Vec<f64> {
     let last = series.len() - 1;
     let bend = second_differences(series);
+    let first_slope = series[1] - series[0] - bend[1] / 6.0;
+    let last_slope = series[last] - series[last - 1] + bend[last - 1] / 6.0;
     (0..series.len())
         .map(|i| {
-            let at = (i as f64 - delay / step).clamp(0.0, last as f64);
+            let at = i as f64 - delay / step;
+            if at < 0.0 {
+                return series[0] + at * first_slope;
+            }
+            if at > last as f64 {
+                return series[last] + (at - last as f64) * last_slope;
+            }
             let k = (at as usize).min(last - 1);
             let (b, a) = (at - k as f64, 1.0 - (at - k as f64));
             let curved = (a.powi(3) - a) * bend[k] + (b.powi(3) - b) * bend[k + 1];
@@ -27,7 +35,7 @@ pub(super) fn delayed(step: f64, series: &[f64], delay: f64) -> Vec<f64> {
 }
 
 /// Second derivatives, per step squared, of the natural cubic spline through evenly spaced values.
-fn second_differences(y: &[f64]) -> Vec<f64> {
+pub(super) fn second_differences(y: &[f64]) -> Vec<f64> {
     let n = y.len();
     let (mut bend, mut share) = (vec![0.0; n], vec![0.0; n]);
     // Tridiagonal: m[i-1] + 4 m[i] + m[i+1] = 6 (y[i-1] - 2 y[i] + y[i+1]).

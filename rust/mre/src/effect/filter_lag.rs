@@ -5,7 +5,7 @@
 //! | T | time constant | s | 0.1 ms to 15 ms |
 //! | `f_c` | corner frequency of a Butterworth filter | Hz | 10 to 2000: slower is no filter of a measurement |
 //!
-//! Exact for series that are linear between samples.
+//! Exact for the cubic spline through evenly spaced samples.
 //! Reference: Butterworth, Wireless Engineer 7 (1930) 536.
 //! Known limit: with all frequencies far below the corner it is a time delay.
 
@@ -13,7 +13,7 @@ use std::f64::consts::{SQRT_2, TAU};
 
 use nalgebra::Complex;
 
-use super::operators::lag;
+use super::delay::second_differences;
 use super::{About, Effect, Motion, Scene, Sizes, order_within};
 use crate::parameter::Parameter;
 
@@ -28,24 +28,39 @@ pub(super) enum FilterLag {
     Butterworth,
 }
 
-/// Second-order Butterworth filter, at rest at the first value.
-///
-/// With the pole `p = w (-1 + i)/sqrt(2)` the output is `sqrt(2) w Im z`, `z' = p z + u`.
-fn butterworth(time: &[f64], input: &[f64], corner: f64) -> Vec<f64> {
-    let w = TAU * corner;
-    let pole = Complex::new(-w / SQRT_2, w / SQRT_2);
+/// `Re(weight z)` of `z' = pole z + u`, at rest at the first value: exact for the natural cubic spline through
+/// evenly spaced values. A line between them would be coarser than a filter faster than their spacing.
+fn filtered(step: f64, input: &[f64], pole: Complex<f64>, weight: Complex<f64>) -> Vec<f64> {
+    let bend = second_differences(input);
+    let decay = (pole * step).exp();
+    // Integrals over a step of the kernel against the powers of the share of the step.
+    let mut power = [(decay - 1.0) / pole; 4];
+    for k in 1..4 {
+        power[k] = (power[k - 1] * (k as f64 / step) - 1.0) / pole;
+    }
+    let [whole, late, square, cube] = power;
+    let early = whole - late;
+    let curved = [(square * 3.0 - late * 2.0 - cube) / 6.0, (cube - late) / 6.0];
     let mut z = -Complex::from(input[0]) / pole;
-    let mut out = vec![input[0]];
+    let mut out = Vec::with_capacity(input.len());
+    out.push((weight * z).re);
     for i in 1..input.len() {
-        let h = pole * (time[i] - time[i - 1]);
-        let decay = h.exp();
-        // Integrals of the kernel against one and against the share of the step.
-        let whole = (decay - 1.0) / pole;
-        let late = (whole / (time[i] - time[i - 1]) - 1.0) / pole;
-        z = z * decay + (whole - late) * input[i - 1] + late * input[i];
-        out.push(SQRT_2 * w * z.im);
+        let entering = early * input[i - 1] + late * input[i] + curved[0] * bend[i - 1] + curved[1] * bend[i];
+        z = z * decay + entering;
+        out.push((weight * z).re);
     }
     out
+}
+
+/// First-order lag of time constant `tau`.
+fn first_order(step: f64, input: &[f64], tau: f64) -> Vec<f64> {
+    filtered(step, input, Complex::from(-1.0 / tau), Complex::from(1.0 / tau))
+}
+
+/// Second-order Butterworth filter, by one of its two poles.
+fn butterworth(step: f64, input: &[f64], corner: f64) -> Vec<f64> {
+    let w = TAU * corner;
+    filtered(step, input, Complex::new(-w, w) / SQRT_2, Complex::new(0.0, -SQRT_2 * w))
 }
 
 impl Effect for FilterLag {
@@ -100,9 +115,9 @@ impl Effect for FilterLag {
 
     fn through(&self, scene: &Scene, shape: &[f64], force: &[f64]) -> Option<Vec<f64>> {
         match self {
-            Self::Force => Some(lag(scene.time, force, shape[0], force[0])),
+            Self::Force => Some(first_order(scene.step(), force, shape[0])),
             Self::Displacement => None,
-            Self::Butterworth => Some(butterworth(scene.time, force, shape[0])),
+            Self::Butterworth => Some(butterworth(scene.step(), force, shape[0])),
         }
     }
 }

@@ -3,12 +3,12 @@
 //! No effect of the catalogue, but a part of the model of such a recording: what is left of the unknown
 //! states decays, here as a sum of exponentials with free coefficients in every recording.
 
-use super::{About, Effect, Scene, Sizes, signed};
+use super::{About, Effect, Scene, Sizes, orders, signed};
 use crate::parameter::Parameter;
 use crate::recording::Recording;
 
-/// Decay times, s.
-const DECAYS: [f64; 4] = [0.03, 0.15, 0.7, 3.0];
+/// Number of decay times: evenly in the logarithm, as the relaxation times of the effects with memory.
+const DECAYS: usize = 6;
 /// A recording starts at rest where its first speed and displacement are below this share of its largest.
 const REST: f64 = 0.05;
 
@@ -39,7 +39,7 @@ impl Effect for InitialState {
     }
 
     fn coefficients(&self) -> Vec<Parameter> {
-        (1..=DECAYS.len()).map(|i| signed(&format!("a_{i}"), "N")).collect()
+        (1..=DECAYS).map(|i| signed(&format!("a_{i}"), "N")).collect()
     }
 
     fn shape(&self, _: &Sizes) -> Vec<Parameter> {
@@ -52,7 +52,8 @@ impl Effect for InitialState {
 
     fn columns(&self, scene: &Scene, _: &[f64]) -> Vec<Vec<f64>> {
         let start = scene.time[0];
-        DECAYS.iter().map(|d| scene.time.iter().map(|t| (-(t - start) / d).exp()).collect()).collect()
+        let times = orders(2.0 * scene.sizes.step, scene.sizes.duration / 3.0, DECAYS);
+        times.iter().map(|d| scene.time.iter().map(|t| (-(t - start) / d).exp()).collect()).collect()
     }
 
     fn of_the_measurement(&self) -> bool {

@@ -6,7 +6,8 @@
 //! | `t_0` | moment, from the start of the campaign | s | its duration |
 //! | `t_r` | time that the change takes | s | a sample to a twelfth of the campaign |
 //!
-//! It lasts to the end of the recording in which it falls: the next one is another specimen or a repaired one.
+//! It lasts to the end of the recording in which it falls, where the next one is another specimen or a repaired
+//! one, or through all later recordings in the order in which they are given.
 //! The time that the change takes lets a fit find the moment.
 //! Known limit: near the end of a recording only a large jump can be seen.
 
@@ -21,6 +22,8 @@ const PLACES: usize = 24;
 pub(super) struct StiffnessJump {
     /// True where damping jumps like stiffness.
     pub(super) whole: bool,
+    /// True where later recordings stay changed.
+    pub(super) lasting: bool,
 }
 
 /// Longest time that a change takes, s.
@@ -32,7 +35,12 @@ impl Effect for StiffnessJump {
     fn about(&self) -> About {
         About {
             effect: "stiffness_jump",
-            law: if self.whole { "whole force" } else { "stiffness" },
+            law: match (self.whole, self.lasting) {
+                (false, false) => "stiffness",
+                (true, false) => "whole force",
+                (false, true) => "stiffness, lasting",
+                (true, true) => "whole force, lasting",
+            },
             plain: "the stiffness changes suddenly at one moment (crack, debonding)",
             equation: "k -> k (1 - s) from t_0 on",
             reference: "general",
@@ -57,11 +65,15 @@ impl Effect for StiffnessJump {
             let apart = sizes.total / places as f64;
             (0..places).map(move |i| vec![s, (i as f64 + 0.3) * apart, 0.5 * longest(sizes)])
         };
-        start(0.2, PLACES).chain(start(-0.2, PLACES / 2)).collect()
+        let places = if self.lasting { PLACES / 2 } else { PLACES };
+        start(0.2, places).chain(start(-0.2, PLACES / 2)).collect()
     }
 
     fn factors(&self, scene: &Scene, shape: &[f64]) -> Option<Factors> {
         let since = shape[1] - scene.before;
+        if self.lasting && since < 0.0 {
+            return Some(Factors::kept(vec![1.0 - shape[0]; scene.len()], self.whole));
+        }
         if !(0.0..scene.duration()).contains(&since) {
             return None;
         }

@@ -3,19 +3,20 @@
 
 mod bounds;
 mod changed;
+mod evaluate;
 mod stream;
 mod weights;
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
-use rayon::prelude::*;
+pub use evaluate::Scratch;
+pub(crate) use evaluate::finite_or_infinite;
 pub use stream::Stream;
 pub use weights::Weights;
 
 use crate::error::Result;
 use crate::extent::Extent;
-use crate::kernel::{BoucWenRk4, LANES, Sinh, SinhCompressed};
+use crate::kernel::{BoucWenRk4, Sinh, SinhCompressed};
 use crate::law::Law;
 use crate::model::Model;
 use crate::parameter::{Bounds, Parameter};
@@ -130,96 +131,4 @@ impl Problem {
     pub(crate) fn compressed(&self) -> Option<&SinhCompressed> {
         if let Kernel::Sinh(kernel) = &*self.kernel { kernel.compressed() } else { None }
     }
-
-    /// Fitness in N^2 of many candidates, one row each, in parallel on the current thread pool.
-    ///
-    /// A candidate that cannot be simulated costs infinity, as does one with a beta outside the box where
-    /// the samples were streamed. After `cancel` is set, NaN stands for those that were not evaluated. The
-    /// values do not depend on the number of threads or on the other candidates.
-    pub fn fitness(&self, rows: &[f64], out: &mut [f64], cancel: &AtomicBool) {
-        let d = self.parameters.len();
-        match &*self.kernel {
-            Kernel::BoucWen(kernels) => self.by_blocks(kernels, rows, out, cancel),
-            Kernel::Sinh(kernel) => kernel.sums_of_squares(rows, out, cancel),
-            Kernel::Terms => self.one_by_one(rows, out, d, cancel),
-        }
-    }
-
-    fn one_by_one(&self, rows: &[f64], out: &mut [f64], d: usize, cancel: &AtomicBool) {
-        let samples: usize = self.recordings.iter().map(|r| r.len()).sum();
-        let grain = (100_000 / samples).max(1);
-        rows.par_chunks(d).zip(out.par_iter_mut()).with_min_len(grain).for_each_init(
-            Scratch::default,
-            |scratch, (row, out)| {
-                *out = if cancel.load(Ordering::Relaxed) {
-                    f64::NAN
-                } else {
-                    finite_or_infinite(self.term_by_term(scratch, row))
-                };
-            },
-        );
-    }
-
-    fn by_blocks(&self, kernels: &[BoucWenRk4], rows: &[f64], out: &mut [f64], cancel: &AtomicBool) {
-        let d = self.parameters.len();
-        let mut order: Vec<usize> = (0..out.len()).collect();
-        // Alike candidates side by side: a block takes as long as its stiffest lane.
-        order.sort_by(|a, b| BoucWenRk4::cost(&rows[a * d..]).total_cmp(&BoucWenRk4::cost(&rows[b * d..])));
-        let costs: Vec<[f64; LANES]> = order
-            .par_chunks(LANES)
-            .map(|chunk| {
-                let mut total = [0.0; LANES];
-                if cancel.load(Ordering::Relaxed) {
-                    return [f64::NAN; LANES];
-                }
-                let block: Vec<&[f64]> = chunk.iter().map(|i| &rows[i * d..(i + 1) * d]).collect();
-                let mut sums = [0.0; LANES];
-                for (kernel, weight) in kernels.iter().zip(&self.weights) {
-                    kernel.sums_of_squares(&block, &mut sums[..block.len()]);
-                    for (total, sum) in total.iter_mut().zip(&sums) {
-                        *total += weight * sum;
-                    }
-                }
-                total.map(finite_or_infinite)
-            })
-            .collect();
-        for (k, i) in order.into_iter().enumerate() {
-            out[i] = costs[k / LANES][k % LANES];
-        }
-    }
-
-    fn term_by_term(&self, scratch: &mut Scratch, row: &[f64]) -> f64 {
-        let mut total = 0.0;
-        for (recording, weight) in self.recordings.iter().zip(&self.weights) {
-            scratch.resize(recording.len());
-            self.law.add_force(&self.model, recording, row, scratch);
-            let force = recording.force().unwrap_or_default();
-            let errors = recording.scored().map(|i| (force[i] - scratch.force[i]).powi(2));
-            total += weight * errors.sum::<f64>();
-        }
-        total
-    }
-}
-
-/// Buffers of one thread.
-#[derive(Debug, Default)]
-pub struct Scratch {
-    /// Force of the candidate, N.
-    pub force: Vec<f64>,
-    /// Column of one term.
-    pub column: Vec<f64>,
-}
-
-impl Scratch {
-    /// Zero force over `n` samples.
-    pub fn resize(&mut self, n: usize) {
-        self.force.clear();
-        self.force.resize(n, 0.0);
-        self.column.resize(n, 0.0);
-    }
-}
-
-/// A candidate that cannot be simulated costs infinity.
-pub(crate) fn finite_or_infinite(cost: f64) -> f64 {
-    if cost.is_nan() { f64::INFINITY } else { cost }
 }

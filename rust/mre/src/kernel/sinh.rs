@@ -14,8 +14,10 @@ use crate::recording::Recording;
 const WIDTH: usize = 5;
 /// Fewer samples than this for every column of the factor: the direct kernel is as fast.
 const WORTHWHILE: usize = 4;
-/// Candidates that keep a thread busy for about as long as it takes to wake one.
-const GRAIN: usize = 1024;
+/// Candidates that are worked on together.
+const PART: usize = 8 * LANES;
+/// Candidates of the compressed kernel that keep a thread busy for longer than it takes to hand them over.
+const GRAIN: usize = 256;
 
 /// Recordings made ready for evaluations.
 #[derive(Debug)]
@@ -59,32 +61,47 @@ impl Sinh {
         self.samples
     }
 
-    /// Weighted sums of squares of candidates `[c0, k0, alpha, beta, F0]`, in parallel. After `cancel`
-    /// is set, NaN stands for those that were not evaluated.
-    pub(crate) fn sums_of_squares(&self, rows: &[f64], out: &mut [f64], cancel: &AtomicBool) {
-        let block = if self.compressed.is_some() { LANES } else { 1 };
-        let cost = if self.compressed.is_some() { 1 } else { (self.samples / 100).max(1) };
+    /// Weighted sums of squares of candidates, in parallel. `place` fills `[c0, k0, alpha, beta, F0]` of
+    /// some candidates from their rows. After `cancel` is set, NaN stands for those that were not evaluated.
+    pub(crate) fn sums_of_squares(
+        &self,
+        rows: &[f64],
+        place: impl Fn(&mut [f64], &[f64]) + Sync,
+        out: &mut [f64],
+        cancel: &AtomicBool,
+    ) {
         let some = |(rows, out): (&[f64], &mut [f64])| {
             if cancel.load(Ordering::Relaxed) {
                 out.fill(f64::NAN);
-            } else {
-                self.block(rows, out);
+                return;
             }
+            let mut candidates = [0.0; WIDTH * PART];
+            let candidates = &mut candidates[..rows.len()];
+            place(candidates, rows);
+            self.some(candidates, out);
         };
-        let grain = (GRAIN / cost).max(1);
-        if out.len() <= grain {
-            rows.chunks(block * WIDTH).zip(out.chunks_mut(block)).for_each(some);
+        let part = if self.compressed.is_some() { PART } else { 1 };
+        let grain = self.grain();
+        if out.len() < 2 * grain {
+            rows.chunks(part * WIDTH).zip(out.chunks_mut(part)).for_each(some);
         } else {
-            rows.par_chunks(block * WIDTH)
-                .zip(out.par_chunks_mut(block))
-                .with_min_len((grain / block).max(1))
+            rows.par_chunks(part * WIDTH)
+                .zip(out.par_chunks_mut(part))
+                .with_min_len((grain / part).max(1))
                 .for_each(some);
         }
     }
 
-    fn block(&self, rows: &[f64], out: &mut [f64]) {
+    /// Candidates that keep a thread busy for longer than it takes to hand them over.
+    pub(crate) fn grain(&self) -> usize {
+        if self.compressed.is_some() { GRAIN } else { (100 * GRAIN / self.samples).max(1) }
+    }
+
+    fn some(&self, rows: &[f64], out: &mut [f64]) {
         if let Some(compressed) = &self.compressed {
-            compressed.sums_of_squares(rows, out);
+            for (rows, out) in rows.chunks(LANES * WIDTH).zip(out.chunks_mut(LANES)) {
+                compressed.sums_of_squares(rows, out);
+            }
         }
         for (row, out) in rows.chunks_exact(WIDTH).zip(out) {
             if !self.compressed.as_ref().is_some_and(|c| c.holds(row)) {

@@ -19,6 +19,8 @@ use crate::recording::Recording;
 pub(crate) const LANES: usize = 8;
 /// Rows of the factor that are multiplied side by side.
 const GROUP: usize = 4;
+/// Columns of most problems: beta up to about 5 / largest displacement.
+const FEW: usize = 16;
 /// Samples of one leaf of the tree of factors: fixed, so that the tree is.
 const LEAF: usize = 64 * ROWS;
 /// Columns beside the Chebyshev polynomials: v, 1, F.
@@ -116,9 +118,22 @@ for_every_isa!(evaluate, evaluate_generic, (on: &SinhCompressed, block: &[[f64; 
 
 #[inline(always)]
 fn evaluate_generic<const FUSED: bool>(on: &SinhCompressed, block: &[[f64; LANES]; 5]) -> [f64; LANES] {
+    if on.triangle.columns() <= FEW {
+        evaluate_within::<FUSED, FEW>(on, block)
+    } else {
+        evaluate_within::<FUSED, { MOST_NODES + OTHERS }>(on, block)
+    }
+}
+
+/// With room for `MOST` columns, which takes time to clear.
+#[inline(always)]
+fn evaluate_within<const FUSED: bool, const MOST: usize>(
+    on: &SinhCompressed,
+    block: &[[f64; LANES]; 5],
+) -> [f64; LANES] {
     let [c0, k0, alpha, beta, f0] = block;
     let n = on.triangle.columns();
-    let mut u = [[0.0; LANES]; MOST_NODES + OTHERS];
+    let mut u = [[0.0; LANES]; MOST];
     let mut b = [0.0; LANES];
     for l in 0..LANES {
         b[l] = beta[l] * on.farthest;

@@ -21,20 +21,17 @@ impl Bulletin {
     /// Note points and their costs; the first of equals stays. NaN marks a point that was not evaluated.
     pub(super) fn note(&mut self, points: &[f64], costs: &[f64]) {
         let d = self.position.len();
-        for (point, cost) in points.chunks_exact(d).zip(costs) {
-            if cost.is_nan() {
-                continue;
+        let none_before = self.evaluations == 0;
+        let mut best = if none_before { costs.iter().position(|cost| !cost.is_nan()) } else { None };
+        for (i, cost) in costs.iter().enumerate() {
+            self.evaluations += u64::from(!cost.is_nan());
+            self.failures += u64::from(cost.is_infinite());
+            if cost.is_finite() && *cost < self.cost {
+                (best, self.cost) = (Some(i), *cost);
             }
-            self.evaluations += 1;
-            if !cost.is_finite() {
-                self.failures += 1;
-            }
-            if *cost < self.cost || self.evaluations == 1 {
-                self.position.copy_from_slice(point);
-            }
-            if cost.is_finite() {
-                self.cost = self.cost.min(*cost);
-            }
+        }
+        if let Some(best) = best {
+            self.position.copy_from_slice(&points[best * d..(best + 1) * d]);
         }
     }
 }

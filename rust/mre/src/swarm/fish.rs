@@ -1,6 +1,7 @@
 //! The artificial fish swarm: AFSA (section 3.1 of the paper) and MAFSA (section 3.2), which differ in
 //! their settings.
 
+use super::batch::Batch;
 use super::random::{around, towards};
 use super::search::{self, Outcome, Wait};
 use super::swarming::Centres;
@@ -31,13 +32,11 @@ pub struct FishSwarm {
     step: f64,
     iteration: usize,
     stage: Stage,
-    rows: Vec<f64>,
-    /// Fish that wait for costs, in the order of the rows.
-    waiting: Vec<(usize, Wait)>,
+    /// What is asked for; of the centres nobody waits for the rows.
+    asked: Batch,
     centres: Centres,
-    /// Buffers, so that iterations do not allocate: rows, fish and costs while they are worked on.
-    told: Vec<f64>,
-    waited: Vec<(usize, Wait)>,
+    /// Buffers, so that iterations do not allocate: a batch and costs while they are worked on.
+    told: Batch,
     known: Vec<f64>,
     bulletin: Bulletin,
     history: History,
@@ -52,16 +51,16 @@ impl FishSwarm {
     pub fn new(settings: FishSettings, dimension: usize, seed: u64, start: Option<&[f64]>) -> Result<Self> {
         settings.check()?;
         let mut streams: Vec<Stream> = (0..settings.fish).map(|fish| Stream::new(seed, fish)).collect();
-        let mut rows: Vec<f64> = streams
-            .iter_mut()
-            .flat_map(|stream| (0..dimension).map(|_| stream.uniform()).collect::<Vec<_>>())
-            .collect();
-        if let Some(start) = start {
-            rows[..dimension].copy_from_slice(start);
+        let mut positions = vec![0.0; settings.fish * dimension];
+        for (stream, position) in streams.iter_mut().zip(positions.chunks_exact_mut(dimension)) {
+            stream.fill(position);
         }
-        let positions = rows.clone();
-        let room = settings.fish * search::most_rows(&settings);
-        rows.reserve_exact(room * dimension - rows.len());
+        if let Some(start) = start {
+            positions[..dimension].copy_from_slice(start);
+        }
+        let room = settings.fish * search::first_round(&settings).rows();
+        let mut asked = Batch::with_room(settings.fish, room, dimension);
+        asked.rows.extend_from_slice(&positions);
         Ok(Self {
             positions,
             costs: vec![f64::INFINITY; settings.fish],
@@ -69,10 +68,8 @@ impl FishSwarm {
             step: settings.step,
             iteration: 0,
             stage: Stage::Hatch,
-            rows,
-            told: Vec::with_capacity(room * dimension),
-            waiting: Vec::with_capacity(settings.fish),
-            waited: Vec::with_capacity(settings.fish),
+            asked,
+            told: Batch::with_room(settings.fish, room, dimension),
             centres: Centres::default(),
             known: Vec::with_capacity(room),
             bulletin: Bulletin::new(dimension),
@@ -101,7 +98,7 @@ impl FishSwarm {
 
     fn begin_iteration(&mut self) {
         self.history.record(&self.bulletin, &self.costs, self.visual, self.step);
-        self.rows.clear();
+        self.asked.clear();
         if self.iteration == self.settings.iterations {
             return;
         }
@@ -115,9 +112,9 @@ impl FishSwarm {
         let mean = self.mean_food();
         let mut centres = std::mem::take(&mut self.centres);
         centres.find(&self.view(), |fish| food(self.costs[fish]) > mean);
-        self.rows.extend_from_slice(&centres.rows);
+        self.asked.rows.extend_from_slice(&centres.rows);
         self.centres = centres;
-        if self.rows.is_empty() {
+        if self.asked.rows.is_empty() {
             self.choose(&[]);
         } else {
             self.stage = Stage::Centres;
@@ -127,36 +124,28 @@ impl FishSwarm {
     /// Every fish chooses its behaviour by its energy (section 3.1.4).
     fn choose(&mut self, centre_costs: &[f64]) {
         let mean = self.mean_food();
-        let mut rows = std::mem::take(&mut self.rows);
-        rows.clear();
-        self.waiting.clear();
-        for fish in 0..self.settings.fish {
+        let (mut asked, mut streams) = (std::mem::take(&mut self.asked), std::mem::take(&mut self.streams));
+        asked.clear();
+        let leader = self.view().best(0..self.settings.fish);
+        for (fish, stream) in streams.iter_mut().enumerate() {
             let follows = food(self.costs[fish]) < mean;
-            let view = View {
-                positions: &self.positions,
-                costs: &self.costs,
-                dimension: self.dimension,
-                visual: self.visual,
-                neighbourhood: self.settings.neighbourhood,
-            };
+            let view = self.view();
             let target = if follows {
-                follow::target(&view, fish, &self.settings)
+                follow::target(&view, leader, fish, &self.settings)
             } else {
                 self.centres.target(&view, centre_costs, fish, &self.settings)
             };
-            let wait = if let Some(target) = target {
+            if let Some(target) = target {
+                let place = asked.add(fish, Wait::Arrival);
+                towards(view.position(fish), target, self.step, stream, place);
                 let counter = if follows { &mut self.behaviours.follow } else { &mut self.behaviours.swarm };
                 *counter += 1;
-                towards(view.position(fish), target, self.step, &mut self.streams[fish], &mut rows);
-                Wait::Arrival
             } else {
-                let wait = search::first_round(&self.settings);
-                look(wait, view.position(fish), self.visual, &mut self.streams[fish], &mut rows);
-                wait
-            };
-            self.waiting.push((fish, wait));
+                asked.add(fish, search::first_round(&self.settings));
+            }
         }
-        self.rows = rows;
+        asked.draw_looks(&self.view(), &mut streams);
+        (self.asked, self.streams) = (asked, streams);
         self.stage = Stage::Acts;
     }
 
@@ -166,49 +155,39 @@ impl FishSwarm {
 
     /// Fish that know their costs move, look again, or are done.
     fn act(&mut self, costs: &[f64]) {
-        std::mem::swap(&mut self.rows, &mut self.told);
-        std::mem::swap(&mut self.waiting, &mut self.waited);
-        self.rows.clear();
-        self.waiting.clear();
-        let (told, waited) = (std::mem::take(&mut self.told), std::mem::take(&mut self.waited));
-        let mut row = 0;
-        for &(fish, wait) in &waited {
+        std::mem::swap(&mut self.asked, &mut self.told);
+        let (mut asked, mut streams) = (std::mem::take(&mut self.asked), std::mem::take(&mut self.streams));
+        let told = std::mem::take(&mut self.told);
+        asked.clear();
+        for (fish, wait, rows, costs) in told.with_costs(costs) {
             let Wait::Looks { count, before } = wait else {
-                self.stand(fish, &told[row * self.dimension..], costs[row]);
-                row += 1;
+                self.stand(fish, rows, costs[0]);
                 continue;
             };
-            let at = |look: usize| &told[(row + look) * self.dimension..(row + look + 1) * self.dimension];
-            let outcome = search::judge(&costs[row..row + count], before, self.costs[fish], &self.settings);
+            let at = |look: usize| &rows[look * self.dimension..(look + 1) * self.dimension];
             let own = &self.positions[self.position(fish)];
-            let (stream, rows) = (&mut self.streams[fish], &mut self.rows);
-            let next = match outcome {
+            match search::judge(costs, before, self.costs[fish], &self.settings) {
                 Outcome::Jump(look) => {
                     self.behaviours.search += 1;
-                    self.stand(fish, at(look), costs[row + look]);
-                    None
+                    self.stand(fish, at(look), costs[look]);
                 }
                 Outcome::StepTowards(look) => {
                     self.behaviours.search += 1;
-                    towards(own, at(look), self.step, stream, rows);
-                    Some(Wait::Arrival)
+                    let place = asked.add(fish, Wait::Arrival);
+                    towards(own, at(look), self.step, &mut streams[fish], place);
                 }
                 Outcome::LookAgain => {
-                    let wait = Wait::Looks { count, before: before + count };
-                    look(wait, own, self.visual, stream, rows);
-                    Some(wait)
+                    asked.add(fish, Wait::Looks { count, before: before + count });
                 }
                 Outcome::GiveUp => {
                     self.behaviours.random += 1;
-                    around(own, self.step, stream, rows);
-                    Some(Wait::Arrival)
+                    around(own, self.step, &mut streams[fish], asked.add(fish, Wait::Arrival));
                 }
-            };
-            self.waiting.extend(next.map(|wait| (fish, wait)));
-            row += count;
+            }
         }
-        (self.told, self.waited) = (told, waited);
-        if self.waiting.is_empty() {
+        asked.draw_looks(&self.view(), &mut streams);
+        (self.asked, self.told, self.streams) = (asked, told, streams);
+        if self.asked.is_empty() {
             self.begin_iteration();
         }
     }
@@ -220,25 +199,16 @@ impl FishSwarm {
     }
 }
 
-/// Looks of one fish, if it waits for some.
-fn look(wait: Wait, own: &[f64], visual: f64, stream: &mut Stream, rows: &mut Vec<f64>) {
-    if let Wait::Looks { count, .. } = wait {
-        for _ in 0..count {
-            around(own, visual, stream, rows);
-        }
-    }
-}
-
 impl Swarm for FishSwarm {
     fn ask(&self) -> &[f64] {
-        &self.rows
+        &self.asked.rows
     }
 
     fn tell(&mut self, costs: &[f64]) {
         let mut known = std::mem::take(&mut self.known);
         known.clear();
         known.extend(costs.iter().map(|c| if c.is_nan() { f64::INFINITY } else { *c }));
-        self.bulletin.note(&self.rows, &known);
+        self.bulletin.note(&self.asked.rows, &known);
         match self.stage {
             Stage::Hatch => {
                 self.costs.copy_from_slice(&known);
@@ -251,11 +221,11 @@ impl Swarm for FishSwarm {
     }
 
     fn tell_some(&mut self, costs: &[f64]) {
-        self.bulletin.note(&self.rows[..costs.len() * self.dimension], costs);
+        self.bulletin.note(&self.asked.rows[..costs.len() * self.dimension], costs);
     }
 
     fn finished(&self) -> bool {
-        self.rows.is_empty()
+        self.asked.rows.is_empty()
     }
 
     fn bulletin(&self) -> &Bulletin {

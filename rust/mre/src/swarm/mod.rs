@@ -5,6 +5,7 @@
 //! and the result does not depend on the order of the fish. Every fish draws from its own stream of
 //! random numbers: same seed, same bits, for any number of threads.
 
+mod batch;
 mod bulletin;
 mod fish;
 mod follow;

@@ -16,6 +16,16 @@ pub(super) enum Wait {
     },
 }
 
+impl Wait {
+    /// Rows that are asked for.
+    pub(super) fn rows(self) -> usize {
+        match self {
+            Self::Arrival => 1,
+            Self::Looks { count, .. } => count,
+        }
+    }
+}
+
 /// What a searching fish does after its looks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Outcome {
@@ -37,23 +47,15 @@ pub(super) fn first_round(settings: &FishSettings) -> Wait {
     }
 }
 
-/// Rows that a fish asks for at once, at most.
-pub(super) fn most_rows(settings: &FishSettings) -> usize {
-    match first_round(settings) {
-        Wait::Looks { count, .. } => count.max(1),
-        Wait::Arrival => 1,
-    }
-}
-
 /// Judge looks by their costs against the cost where the fish stands.
 pub(super) fn judge(costs: &[f64], before: usize, own: f64, settings: &FishSettings) -> Outcome {
-    let mut best = 0;
+    let (mut best, mut least) = (0, own);
     for (look, cost) in costs.iter().enumerate() {
-        if *cost < costs[best] {
-            best = look;
+        if *cost < least {
+            (best, least) = (look, *cost);
         }
     }
-    if costs[best] < own {
+    if least < own {
         match settings.search {
             Search::Best => Outcome::Jump(best),
             Search::Step => Outcome::StepTowards(best),

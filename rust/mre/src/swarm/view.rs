@@ -29,7 +29,8 @@ impl<'a> View<'a> {
         &self.positions[fish * self.dimension..(fish + 1) * self.dimension]
     }
 
-    fn within_sight(&self, fish: usize) -> impl Iterator<Item = usize> + '_ {
+    /// The fellows within the visual range.
+    pub(super) fn within_sight(&self, fish: usize) -> impl Iterator<Item = usize> + '_ {
         (0..self.costs.len()).filter(move |&other| {
             other != fish && distance(self.position(fish), self.position(other)) < self.visual
         })
@@ -44,16 +45,9 @@ impl<'a> View<'a> {
         }
     }
 
-    /// The fellow with the most food.
-    pub(super) fn best(&self, fish: usize) -> Option<usize> {
-        let better = |best: Option<usize>, other: usize| match best {
-            Some(b) if self.costs[b] <= self.costs[other] => best,
-            _ => Some(other),
-        };
-        match self.neighbourhood {
-            Neighbourhood::Swarm => (0..self.costs.len()).filter(|&other| other != fish).fold(None, better),
-            Neighbourhood::Visual => self.within_sight(fish).fold(None, better),
-        }
+    /// The fish with the most food; the first of equals.
+    pub(super) fn best(&self, fish: impl Iterator<Item = usize>) -> Option<usize> {
+        fish.reduce(|best, other| if self.costs[best] <= self.costs[other] { best } else { other })
     }
 
     /// Add the centre of the fellows within sight to the rows; false if there are none.

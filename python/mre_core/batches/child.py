@@ -1,0 +1,113 @@
+"""A process that works on one item after the other, and that may be killed.
+
+Whatever an item does, its time, its memory and its crashes are its own. The process ends when the one that
+started it does.
+"""
+
+import os
+import pickle
+import subprocess
+import sys
+import threading
+from pathlib import Path
+from typing import Self
+
+from .work import Outcome, Task
+
+ATTEMPTS = 3
+"""How often a process may die of an item before the item counts as failed."""
+
+
+class Child:
+    """Started when it is first needed, and again after it was killed."""
+
+    def __init__(self) -> None:
+        self._process: subprocess.Popen[bytes] | None = None
+        self._closed = False
+        self._lock = threading.Lock()
+
+    def run(self, task: Task, budget: float | None) -> Outcome:
+        """Work on one item for at most `budget` seconds."""
+        status = None
+        for _ in range(ATTEMPTS):
+            process = self._started()
+            late = threading.Event()
+            timer = threading.Timer(budget or 0.0, self._kill, (process, late))
+            timer.daemon = True
+            if budget is not None:
+                timer.start()
+            try:
+                assert process.stdin is not None
+                assert process.stdout is not None
+                pickle.dump(task, process.stdin)
+                process.stdin.flush()
+                outcome: Outcome = pickle.load(process.stdout)
+                return outcome
+            except (EOFError, pickle.UnpicklingError, OSError):
+                pass
+            finally:
+                timer.cancel()
+            status = self._buried(process)
+            if late.is_set():
+                seconds = budget or 0.0
+                return Outcome(task.item, task.seed, error=f"not done within {seconds:g} s", lasting=False)
+        problem = f"its process died {ATTEMPTS} times (status {status}): out of memory?"
+        return Outcome(task.item, task.seed, error=problem, lasting=False)
+
+    def close(self) -> None:
+        """End the process, in the middle of an item if need be."""
+        with self._lock:
+            self._closed = True
+            process = self._process
+        if process is not None:
+            process.kill()
+            self._buried(process)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def __del__(self) -> None:
+        self.close()
+
+    def _started(self) -> "subprocess.Popen[bytes]":
+        with self._lock:
+            if self._closed:
+                raise RuntimeError("the batch has ended")
+            if self._process is None:
+                root = str(Path(__file__).parents[2])
+                code = f"import sys; sys.path.insert(0, {root!r})\n"
+                code += "from mre_core.batches.serve import serve; serve()"
+                self._process = subprocess.Popen(
+                    [sys.executable, "-P", "-c", code],
+                    stdin=subprocess.PIPE,
+                    stdout=subprocess.PIPE,
+                    # One thread a worker is what is shared out, and NumPy would take all.
+                    env=os.environ | {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"},
+                    start_new_session=True,  # Ctrl-C is for the process that started it
+                )
+                assert self._process.stdout is not None
+                self._process.stdout.read(1)  # ready: importing is not on the account of the item
+            return self._process
+
+    @staticmethod
+    def _kill(process: "subprocess.Popen[bytes]", late: threading.Event) -> None:
+        late.set()
+        process.kill()
+
+    def _buried(self, process: "subprocess.Popen[bytes]") -> int:
+        """Wait for the end of a process that is dying, and give its status."""
+        process.kill()
+        status = process.wait()
+        for pipe in (process.stdin, process.stdout):
+            if pipe is not None:
+                try:
+                    pipe.close()
+                except OSError:  # what was in the pipe cannot be delivered any more
+                    pass
+        with self._lock:
+            if self._process is process:
+                self._process = None
+        return status

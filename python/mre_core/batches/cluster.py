@@ -1,0 +1,117 @@
+"""A Dask cluster: one that runs already, or one of this machine."""
+
+import gc
+import logging
+import re
+from collections.abc import Iterator
+from concurrent.futures import Executor
+from contextlib import ExitStack, contextmanager
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+from .._core import __version__
+from ..errors import InputError, one_line
+from .engine import Engine
+
+_PATIENCE = 10.0
+"""Seconds to wait for a scheduler and its workers."""
+_RETRIES = 3
+_LOCAL = re.compile(r"local:(\d{1,3})")
+
+
+@contextmanager
+def cluster_engine(address: str, folder: Path, threads: int) -> Iterator[Engine]:
+    """Connect to a scheduler, or start ``local:N`` workers.
+
+    A task of a worker that dies is given to another one by the scheduler.
+
+    Parameters
+    ----------
+    address : str
+        Such as ``tcp://10.0.0.1:8786``, or ``local:N``.
+    folder : Path
+        The recordings. Where a worker does not see them, their content travels with the tasks.
+    threads : int
+        Of one item. More than one is for workers that take one task at a time.
+
+    Raises
+    ------
+    InputError
+        Dask is not installed, the scheduler cannot be reached, it has no workers, or these are of another
+        version.
+    """
+    try:
+        dask: Any = import_module("dask")
+        distributed: Any = import_module("distributed")
+    except ImportError:
+        raise InputError("Dask is not installed", wanted="pip install 'mre-core[cluster]'") from None
+    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what matters is said in one line
+    local = _LOCAL.fullmatch(address)
+    if address.startswith("local") and (local is None or int(local[1]) == 0):
+        raise InputError(f"cluster is '{address}'", wanted="local:N with N workers, or an address")
+    settings = {
+        "distributed.comm.timeouts.connect": _PATIENCE,
+        "distributed.worker.daemon": False,  # workers start processes
+        "distributed.admin.large-graph-warning-threshold": "1GiB",  # files that travel are meant to
+    }
+    with ExitStack() as stack:
+        stack.enter_context(dask.config.set(settings))
+        target: Any = address
+        if local is not None:
+            count = int(local[1])
+            target = stack.enter_context(
+                distributed.LocalCluster(n_workers=count, threads_per_worker=1, dashboard_address=None)
+            )
+        client = stack.enter_context(_connect(distributed.Client, target, address))
+        slots = _check_workers(client, address, threads)
+        sees = all(client.run(_sees, str(folder.resolve())).values())
+        # Same function, same arguments, other time: a task is not what Dask calls pure.
+        executor: Executor = client.get_executor(pure=False, retries=_RETRIES)
+        yield Engine(executor, slots, sees)
+
+
+def _connect(client: Any, target: Any, address: str) -> Any:
+    try:
+        return client(target, timeout=_PATIENCE, set_as_default=False)
+    except (OSError, ValueError, TimeoutError) as error:
+        problem = one_line(str(error)) or "no answer"
+    # The client that failed is part of a cycle. Collected later, on another client's thread while that
+    # starts, it would wait for that client's lock for ever.
+    gc.collect()
+    raise InputError(
+        f"the scheduler at {address} cannot be reached: {problem}",
+        wanted="the address of a running scheduler",
+    )
+
+
+def _check_workers(client: Any, address: str, threads: int) -> int:
+    """See that the workers can do the work, and count how many tasks they take at a time."""
+    try:
+        client.wait_for_workers(1, timeout=_PATIENCE)
+    except TimeoutError:
+        raise InputError(f"the scheduler at {address} has no workers", wanted="at least one") from None
+    wanted = f"mre-core {__version__} on every worker"
+    try:
+        client.get_versions(check=True)
+        versions = client.run(_version)
+    except (ImportError, ValueError) as error:
+        problem = f"a worker or the scheduler has other software: {one_line(str(error))}"
+        raise InputError(problem, wanted=wanted) from None
+    for worker, version in sorted(versions.items()):
+        if version != __version__:
+            raise InputError(f"worker {worker} has mre-core {version}", wanted=wanted)
+    counts = client.nthreads()
+    for worker, count in sorted(counts.items()):
+        if threads > 1 and count > 1:
+            problem = f"worker {worker} takes {count} tasks at a time, of {threads} threads each"
+            raise InputError(problem, wanted="one thread an item, or workers with --nthreads 1")
+    return int(sum(counts.values()))
+
+
+def _version() -> str:
+    return __version__
+
+
+def _sees(folder: str) -> bool:
+    return Path(folder).is_dir()

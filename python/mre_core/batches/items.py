@@ -1,0 +1,111 @@
+"""What a folder holds: recordings, and sub-folders that are campaigns."""
+
+import hashlib
+import os
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from ..errors import InputError
+
+
+@dataclass(frozen=True)
+class Item:
+    """A recording, or the recordings of a campaign."""
+
+    name: str
+    """Path of the file or the sub-folder, as seen from the folder of the batch."""
+    files: tuple[Path, ...]
+    digest: str
+    """SHA-256 of the content of all files."""
+    modified: float
+    """When the newest file was last written, seconds since 1970."""
+    problem: str = ""
+    """Why it cannot be worked on; empty where it can."""
+
+
+def find_items(folder: str | os.PathLike[str], leave_out: Path | None = None) -> list[Item]:
+    """List the CSV files of a folder and its sub-folders with CSV files, by name.
+
+    Parameters
+    ----------
+    folder : path
+        Where to look. What begins with a dot is passed over.
+    leave_out : Path, optional
+        A sub-folder that is no campaign: that of the results.
+
+    Returns
+    -------
+    list of Item
+        Items that cannot be worked on, duplicates among them, say why in `problem`.
+
+    Raises
+    ------
+    InputError
+        The folder cannot be read or has no CSV file.
+    """
+    root = Path(folder)
+    try:
+        entries = sorted(entry for entry in root.iterdir() if not entry.name.startswith("."))
+    except OSError as error:
+        problem = f"cannot be read: {error.strerror}"
+        raise InputError(problem, file=str(root), wanted="a folder with recordings") from None
+    items = []
+    for entry in entries:
+        if leave_out is not None and entry.resolve() == leave_out.resolve():
+            continue
+        if entry.is_dir():
+            items.append(_item(entry.name, tuple(sorted(f for f in entry.rglob("*") if _is_csv(f)))))
+        elif _is_csv(entry):
+            items.append(_item(entry.name, (entry,)))
+    if not any(item.files for item in items):
+        raise InputError("no CSV file", file=str(root), wanted="recordings, or sub-folders with recordings")
+    return _without_duplicates(items)
+
+
+def digest_of(path: Path) -> str:
+    """SHA-256 of a file's content."""
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def digest_of_all(digests: list[str]) -> str:
+    """SHA-256 of several files' digests, in their order."""
+    return hashlib.sha256("".join(digests).encode()).hexdigest()
+
+
+def _is_csv(path: Path) -> bool:
+    return path.suffix.lower() == ".csv" and not path.name.startswith(".")
+
+
+def _item(name: str, files: tuple[Path, ...]) -> Item:
+    if not files:
+        return Item(name, (), "", 0.0, "no CSV file in the folder")
+    digests: dict[str, str] = {}
+    modified, problem = 0.0, ""
+    for file in files:
+        try:
+            if not file.is_file():
+                problem = problem or f"{file.name}: no regular file"
+                continue
+            digest = digest_of(file)
+            modified = max(modified, file.stat().st_mtime)
+        except OSError as error:
+            problem = problem or f"{file.name}: cannot be read: {error.strerror}"
+            continue
+        if digest in digests:
+            problem = problem or f"{file.name}: the same recording as {digests[digest]}"
+        digests[digest] = file.name
+    return Item(name, files, digest_of_all(list(digests)), modified, problem)
+
+
+def _without_duplicates(items: list[Item]) -> list[Item]:
+    """Mark items with the same content as one before."""
+    first: dict[str, str] = {}
+    found = []
+    for item in items:
+        if not item.problem and item.digest in first:
+            item = replace(item, problem=f"the same content as {first[item.digest]}")
+        elif not item.problem:
+            first[item.digest] = item.name
+        found.append(item)
+    return found

@@ -1,0 +1,135 @@
+"""A batch: find the items, leave out what is done, work on the rest, write the table."""
+
+import math
+import os
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import ExitStack
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from .._core import __version__
+from ..errors import InputError
+from ..minimise import draw_seed
+from .columns import read_results
+
+if TYPE_CHECKING:
+    from concurrent.futures import Executor
+
+    import pandas as pd
+
+OnProgress = Callable[[int, int, int], object]
+"""Called with the number of items that are done, that failed, and of all."""
+
+
+def batch(
+    folder: str | os.PathLike[str],
+    out: str | os.PathLike[str],
+    *,
+    model: str | os.PathLike[str] | None = None,
+    base: str | os.PathLike[str] | None = None,
+    seed: int | None = None,
+    seeds: Sequence[int] | None = None,
+    map: Mapping[str, str] | None = None,
+    conditions: Mapping[str, float | str] | None = None,
+    name_pattern: str | None = None,
+    read: Mapping[str, object] | None = None,
+    cut: tuple[float | None, float | None] | None = None,
+    exclude: Sequence[str] = (),
+    bootstrap: int | None = None,
+    budget: float | None = None,
+    workers: int | None = None,
+    threads: int = 1,
+    cluster: str | None = None,
+    executor: "Executor | None" = None,
+    on_progress: OnProgress | None = None,
+    **options: Any,
+) -> "pd.DataFrame":
+    """Identify or diagnose every recording and every campaign of a folder, each on its own.
+
+    A CSV file is a recording, a sub-folder a campaign. One item that fails does not stop the others.
+    Finished items are kept in `out` at once: a batch that was killed goes on where it was when it is called
+    again, and ends with the same results. Items that failed for want of time, memory or disk are then
+    tried again.
+
+    Parameters
+    ----------
+    folder : path
+        Recordings and campaigns.
+    out : path
+        Folder for ``results.parquet`` (see `read_results`), ``models/`` and the state of the batch.
+    model, base : str or path
+        One of them: what to identify (as in `identify`) or to diagnose (as in `diagnose`).
+    seed : int, optional
+        For every item. Drawn and kept where not given.
+    seeds : sequence of int, optional
+        Several seeds in place of one: every item is worked on with each.
+    map, conditions, name_pattern, read
+        How files are read: see `load`.
+    cut, exclude
+        Start and stop in s, and what `Recording.exclude` takes.
+    bootstrap : int, optional
+        Replicates for bootstrap intervals, of an identification.
+    budget : float, optional
+        Seconds that one item may take; then it counts as failed.
+    workers : int, optional
+        Processes on this machine. By default the cores divided by `threads`.
+    threads : int
+        Threads of one item. The results do not depend on it.
+    cluster : str, optional
+        Address of a Dask scheduler, or ``local:N`` for N Dask workers on this machine.
+    executor : concurrent.futures.Executor, optional
+        Takes the items instead. Its workers have to see the files.
+    on_progress : callable, optional
+        Called with (done, failed, all) as items end.
+    **options
+        Further keywords of `identify` or `diagnose`.
+
+    Returns
+    -------
+    pandas.DataFrame
+        As `read_results` gives it.
+
+    Raises
+    ------
+    MreError
+        A setting cannot be used, `out` is in use, holds another batch or cannot be written, the scheduler
+        cannot be reached, or the workers are gone.
+    """
+    from .drive import drive  # here: what a batch needs, importing the package does not
+    from .engine import chosen_engine
+    from .items import find_items
+    from .journal import journal_in
+    from .ledger import Ledger
+    from .settings import Reading, Settings
+
+    of_file = (dict(map or {}), dict(conditions or {}), name_pattern)
+    reading = Reading(*of_file, cut, tuple(exclude), dict(read or {}))
+    settings = Settings.of(model, base, reading, options, bootstrap)
+    _check(seed, seeds, budget, workers, threads)
+    items = find_items(folder, Path(out))
+    with ExitStack() as stack:
+        engine = stack.enter_context(chosen_engine(workers, threads, cluster, executor, Path(folder)))
+        journal = stack.enter_context(journal_in(Path(out)))
+        first = journal.begin(__version__, seed, settings)
+        run = Ledger(items, list(seeds) if seeds is not None else [first], settings, journal, threads)
+        try:
+            drive(run.left, engine, budget, run.keeper(on_progress))
+        finally:
+            run.write(Path(out))
+    return read_results(out)
+
+
+def _check(
+    seed: int | None, seeds: Sequence[int] | None, budget: float | None, workers: int | None, threads: int
+) -> None:
+    if seed is not None and seeds is not None:
+        raise InputError("both a seed and seeds are given", wanted="one of them")
+    if seeds is not None and (not seeds or len(set(seeds)) < len(seeds)):
+        raise InputError(f"seeds are {list(seeds)}", wanted="at least one seed, each once")
+    for each in seeds or ():
+        draw_seed(each)  # refuses what is no seed
+    if budget is not None and not (math.isfinite(budget) and budget > 0):
+        raise InputError(f"budget is {budget} s", wanted="a positive number of seconds")
+    for name, value in (("workers", workers), ("threads", threads)):
+        if value is not None and not 1 <= value <= 1024:
+            raise InputError(f"{name} is {value}", wanted="a whole number from 1 to 1024")

@@ -1,0 +1,124 @@
+"""What every item of a batch is treated with, and the hash that names it."""
+
+import hashlib
+import json
+import os
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
+from functools import cached_property
+from inspect import signature
+from pathlib import Path
+from typing import Any, Literal, Self
+
+from .._core import Recording, models
+from ..errors import InputError
+from ..fits import hybrid
+from ..identify import OPTIMIZERS, SWARMS
+from ..load import load
+from ..minimise import RunOptions
+from ..model import SIMULATED, Model
+
+_VARYING = {"callback", "on_interrupt", "threads", "time_limit", "x0", "seed", "run", "problem_or_function"}
+"""Keywords of an optimiser that belong to one run, or make results depend on the machine's speed."""
+
+
+@dataclass(frozen=True)
+class Reading:
+    """How a file becomes a recording: keywords of `load`, then what is cut and excluded."""
+
+    map: Mapping[str, str] = field(default_factory=dict)
+    conditions: Mapping[str, float | str] = field(default_factory=dict)
+    name_pattern: str | None = None
+    cut: tuple[float | None, float | None] | None = None
+    """Start and stop in s."""
+    exclude: tuple[str, ...] = ()
+    read: Mapping[str, object] = field(default_factory=dict)
+
+    def load(self, path: Path) -> Recording:
+        """Read one file."""
+        conditions: dict[str, Any] = dict(self.conditions)
+        found = load(path, map=self.map, name_pattern=self.name_pattern, read=self.read or None, **conditions)
+        if self.cut is not None:
+            found = found.cut(*self.cut)
+        return found.exclude(*self.exclude) if self.exclude else found
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Everything beside the recordings, the seed and the version that a result depends on."""
+
+    job: Literal["identify", "diagnose"]
+    model: str
+    """Name of the model or the base; of a model file, the name of its equation."""
+    start: Mapping[str, Any] | None
+    """Content of the model file, where there is one."""
+    reading: Reading
+    options: Mapping[str, Any]
+    """Further keywords of `identify` or `diagnose`."""
+    bootstrap: int | None = None
+
+    @classmethod
+    def of(
+        cls,
+        model: str | os.PathLike[str] | None,
+        base: str | os.PathLike[str] | None,
+        reading: Reading,
+        options: Mapping[str, Any],
+        bootstrap: int | None,
+    ) -> Self:
+        """Check what can be checked before any recording is read.
+
+        Raises
+        ------
+        InputError
+            Not exactly one of model and base, or neither a known name nor a model file.
+        """
+        if (model is None) == (base is None):
+            given = "both a model and a base are" if model is not None else "neither a model nor a base is"
+            raise InputError(f"{given} given", wanted="a model to identify, or a base to diagnose")
+        if bootstrap is not None and base is not None:
+            raise InputError("a bootstrap of a diagnosis", wanted="a bootstrap with a model")
+        name = os.fspath(model if model is not None else base)  # type: ignore[arg-type]  # one is given
+        start = None
+        known = [*models(), *([SIMULATED] if base is not None else [])]
+        if name.endswith(".json"):
+            start = Model.load(name).to_dict()
+            name = str(start["model"])
+        elif name not in known:
+            what = "model" if model is not None else "base"
+            raise InputError(f"the {what} is '{name}'", wanted=f"{', '.join(known)}, or a model.json")
+        job: Literal["identify", "diagnose"] = "identify" if model is not None else "diagnose"
+        given_options = {key: value for key, value in options.items() if value is not None}
+        known_options = _known_options(job, str(given_options.get("optimizer", "hybrid")))
+        if surplus := sorted(set(given_options) - known_options):
+            problem = f"{surplus[0]} is given, which a batch that is to {job} does not take"
+            raise InputError(problem, wanted=", ".join(sorted(known_options)))
+        return cls(job, name, start, reading, given_options, bootstrap)
+
+    def given_model(self) -> str | Model:
+        """Give the model or base as `identify` and `diagnose` take it."""
+        return self.model if self.start is None else Model.from_dict(self.start)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Everything, as plain JSON."""
+        plain: dict[str, Any] = json.loads(json.dumps(asdict(self), sort_keys=True))
+        return plain
+
+    @cached_property
+    def digest(self) -> str:
+        """First twelve hexadecimal digits of the SHA-256 of the settings."""
+        text = json.dumps(self.to_dict(), sort_keys=True)
+        return hashlib.sha256(text.encode()).hexdigest()[:12]
+
+
+def _known_options(job: str, optimizer: str) -> set[str]:
+    """Keywords that `identify` or `diagnose` take and that every item can share."""
+    if job == "diagnose":
+        return {"false_alarm", "fixed"}
+    known = {"optimizer", "bounds", "weights", "certify"}
+    if optimizer not in OPTIMIZERS:
+        raise InputError(f"optimizer is {optimizer!r}", wanted=f"one of {', '.join(OPTIMIZERS)}")
+    if optimizer == "exact":
+        return known
+    function = {**SWARMS, "hybrid": hybrid}[optimizer]
+    return known | (set(signature(function).parameters) | set(RunOptions.__annotations__)) - _VARYING

@@ -1,0 +1,144 @@
+"""``mre-core batch``."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from .arguments import WHOLE, common_options, pairs, read_bounds, read_interval, read_seeds
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from ..output import Stage
+
+_SHOWN = 20
+"""Failed items that are shown; all are in the table."""
+
+
+@click.command()
+@click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
+@click.option(
+    "--out", type=click.Path(path_type=Path), required=True, metavar="OUT", help="Folder for the results."
+)
+@click.option("--model", metavar="MODEL", help="Identify: kelvin_voigt, sinh, bouc_wen, or a model.json.")
+@click.option("--base", metavar="MODEL", help="Diagnose: the same, or simulated (a column of that role).")
+@click.option("--optimizer", metavar="hybrid|exact|mafsa|afsa|pso", help="How to search; hybrid by default.")
+@click.option("--seed", type=WHOLE, help="Same seed, same result.")
+@click.option("--seeds", metavar="FIRST:END", help="Work on every item with each of these seeds.")
+@click.option("--bootstrap", type=WHOLE, metavar="N", help="Intervals by N refits as well.")
+@click.option("--bounds", multiple=True, metavar="NAME=LOWER:UPPER", help="Bounds that replace default ones.")
+@click.option("--weights", metavar="samples|force", help="Count samples, or recordings by their force.")
+@click.option("--fish", type=WHOLE, help="Fish or particles of a swarm.")
+@click.option("--iterations", type=WHOLE, help="Iterations of a swarm.")
+@click.option("--false-alarm", type=float, help="Of a diagnosis; 0.01 by default.")
+@click.option(
+    "--fixed", is_flag=True, help="Of a diagnosis: keep the parameters of a model.json as they are."
+)
+@click.option("--cut", metavar="START:STOP", help="Keep this part of every recording, in s.")
+@click.option("--exclude", metavar="PARTS", help="start_transient, stop_transient or both, with a comma.")
+@click.option("--budget", type=float, metavar="S", help="Seconds that one item may take.")
+@click.option("--workers", type=WHOLE, help="Processes on this machine; one a core by default.")
+@click.option("--threads", type=WHOLE, default=1, show_default=True, help="Threads of one item.")
+@click.option(
+    "--cluster", metavar="ADDRESS|local:N", help="A Dask scheduler, or N Dask workers on this machine."
+)
+@click.option("--no-figures", is_flag=True, help="Write no figures.")
+@click.option("--quiet", is_flag=True, help="No progress, no tables.")
+@common_options
+def batch(
+    folder: Path,
+    out: Path,
+    bounds: tuple[str, ...],
+    seeds: str | None,
+    cut: str | None,
+    exclude: str | None,
+    fish: int | None,
+    iterations: int | None,
+    fixed: bool,
+    no_figures: bool,
+    quiet: bool,
+    mapping: tuple[str, ...],
+    conditions: tuple[str, ...],
+    name_pattern: str | None,
+    reading: tuple[str, ...],
+    **options: Any,
+) -> int:
+    """Identify or diagnose every recording (CSV file) and every campaign (sub-folder) of DIR.
+
+    An item that fails is listed with its error and stops no other. Killed at any moment, the same command
+    goes on where it was. Exit status 1 where no item at all is done.
+
+    \b
+    Examples:
+      mre-core batch recordings --model sinh --out result
+      mre-core batch campaigns --base sinh --budget 600 --out result
+      mre-core batch recordings --model bouc_wen --cluster tcp://10.0.0.1:8786 --out result
+    """  # noqa: D301  # \b keeps the lines
+    from ..batches import batch as run
+    from ..files import ReadOptions
+    from ..output import staged
+    from .progress import counter
+
+    options["n_particles" if options["optimizer"] == "pso" else "n_fish"] = fish
+    options |= {"max_iterations": iterations, "fixed": fixed or None}
+    with counter("batch", quiet=quiet) as on_progress:
+        results = run(
+            folder,
+            out,
+            seeds=None if seeds is None else read_seeds(seeds),
+            map=pairs("--map", mapping),
+            conditions=pairs("--set", conditions),
+            name_pattern=name_pattern,
+            read=pairs("--read", reading, ReadOptions._fields),
+            cut=None if cut is None else read_interval(cut),
+            exclude=() if exclude is None else tuple(part.strip() for part in exclude.split(",")),
+            bounds=read_bounds(bounds) or None,
+            on_progress=on_progress,
+            **options,
+        )
+    if not no_figures:
+        with staged(out) as stage:
+            _draw(stage, results)
+    if not quiet:
+        _print(results, out)
+    return 0 if (results["status"] == "done").any() else 1
+
+
+def _draw(stage: "Stage", results: "pd.DataFrame") -> None:
+    """One figure for every axis that the results have and along which they differ."""
+    from ..batches.plots import AGAINST, long_table, plot_parameters
+
+    if not (results["status"] == "done").any():
+        return
+    table = long_table(results)
+    for against in AGAINST:
+        if table[against].nunique() > 1:
+            figure = plot_parameters(results, against)
+            figure.savefig(stage.path(f"parameters_{against}.png"), dpi=110)
+
+
+def _print(results: "pd.DataFrame", out: Path) -> None:
+    from rich.markup import escape
+    from rich.table import Table
+
+    from .show import console
+
+    failed = results[results["status"] == "failed"]
+    to = console()
+    to.print(
+        f"{len(results) - len(failed)} done, {len(failed)} failed: {escape(str(out / 'results.parquet'))}"
+    )
+    if "verdict" in results:
+        for verdict, count in results["verdict"].value_counts().items():
+            to.print(f"  {verdict}: {count}")
+    if failed.empty:
+        return
+    table = Table(title="failed", title_justify="left")
+    for column in ("item", "seed", "error"):
+        table.add_column(column)
+    for _, row in failed.head(_SHOWN).iterrows():
+        table.add_row(escape(row["item"]), str(row["seed"]), escape(row["error"]))
+    if len(failed) > _SHOWN:
+        table.add_row(f"and {len(failed) - _SHOWN} more", "", "")
+    to.print(table)

@@ -1,0 +1,178 @@
+"""``mre-core laws``."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from ..errors import InputError
+from .arguments import common_options, load_all, read_bounds, read_interval
+
+if TYPE_CHECKING:
+    from .._core import Recording
+    from ..current_laws.fit import LawFit
+    from ..measure import Fit
+
+
+@click.command()
+@click.argument("recordings", nargs=-1, required=True)
+@click.option("--model", required=True, metavar="MODEL", help="kelvin_voigt, sinh or bouc_wen.")
+@click.option(
+    "--law",
+    "laws",
+    multiple=True,
+    metavar="NAME=LAW",
+    help="constant, linear, quadratic, saturating or free; chosen where not given.",
+)
+@click.option("--shared", multiple=True, metavar="NAME", help="A parameter that is the same at all currents.")
+@click.option(
+    "--over",
+    default="current",
+    show_default=True,
+    metavar="current|temperature|amplitude",
+    help="What laws run over.",
+)
+@click.option(
+    "--predict", type=float, metavar="LEVEL", help="Leave recordings at this level out; predict them."
+)
+@click.option("--out", type=click.Path(path_type=Path), metavar="DIR", help="Folder for the results.")
+@click.option("--bounds", multiple=True, metavar="NAME=LOWER:UPPER", help="Bounds that replace default ones.")
+@click.option(
+    "--weights",
+    default="samples",
+    metavar="samples|force",
+    help="Count samples, or recordings by their force.",
+)
+@click.option("--cut", metavar="START:STOP", help="Keep this part of every recording, in s.")
+@click.option("--exclude", metavar="PARTS", help="start_transient, stop_transient or both, with a comma.")
+@click.option("--quiet", is_flag=True, help="No progress, no tables.")
+@common_options
+def laws(
+    recordings: tuple[str, ...],
+    model: str,
+    laws: tuple[str, ...],
+    shared: tuple[str, ...],
+    over: str,
+    predict: float | None,
+    out: Path | None,
+    bounds: tuple[str, ...],
+    cut: str | None,
+    exclude: str | None,
+    quiet: bool,
+    mapping: tuple[str, ...],
+    conditions: tuple[str, ...],
+    name_pattern: str | None,
+    reading: tuple[str, ...],
+    **options: Any,
+) -> int:
+    """Fit RECORDINGS (CSV files) at several currents together, with laws of the parameters over the current.
+
+    A law that is not given is chosen by how well it predicts currents that are left out of the fit.
+
+    \b
+    Examples:
+      mre-core laws *.csv --model sinh --law c0=linear --law alpha=saturating --shared beta --out result
+      mre-core laws *.csv --model bouc_wen --predict 0.5 --name-pattern '{amplitude}mm{frequency}Hz{current}A'
+    """  # noqa: D301  # \b keeps the lines
+    from contextlib import nullcontext
+
+    from ..current_laws.fit import fit_laws
+    from ..current_laws.plots import plot_laws
+    from ..measure import measure_fit
+    from ..output import Stage, staged
+    from .progress import spinner
+
+    interval = None if cut is None else read_interval(cut)
+    parts = () if exclude is None else tuple(part.strip() for part in exclude.split(","))
+    left_out: list[Recording] = []
+
+    def read() -> "Iterator[Recording]":
+        for path in recordings:  # one at a time: a campaign need not fit into memory
+            (found,) = load_all([path], mapping, conditions, name_pattern, reading)
+            found = found if interval is None else found.cut(*interval)
+            found = found.exclude(*parts) if parts else found
+            if _is_at(found, over, predict):
+                left_out.append(found)
+            else:
+                yield found
+
+    place = staged(out) if out is not None else nullcontext()
+    with place as stage:
+        with spinner("fitting", quiet=quiet):
+            settings: dict[str, Any] = {"over": over, "bounds": read_bounds(bounds), **options}
+            found = fit_laws(read(), model, _laws(laws), shared, **settings)
+        if predict is not None and not left_out:
+            raise InputError(f"no recording at {predict:g}", wanted=f"the {over} of some recording")
+        predicted = [measure_fit(found.model, recording) for recording in left_out]
+        if isinstance(stage, Stage):
+            stage.write_json("model.json", found.model.to_dict())
+            stage.write_json("laws.json", _content(found, predicted))
+            plot_laws(found.model).savefig(stage.path("laws.png"), dpi=110)
+    if not quiet:
+        _print(found, predicted)
+    return 0
+
+
+def _is_at(recording: "Recording", over: str, level: float | None) -> bool:
+    from ..current_laws.variable import series_of
+    from ..grouping import same_level
+
+    if level is None:
+        return False
+    series = series_of(recording, over)
+    return len(series) == 1 and same_level(float(series[0]), level)
+
+
+def _laws(texts: tuple[str, ...]) -> dict[str, str]:
+    found: dict[str, str] = {}
+    for text in texts:
+        name, equals, kind = text.partition("=")
+        if not equals or name in found:
+            raise InputError(f"--law {text}", wanted="--law NAME=LAW, each name once")
+        found[name] = kind
+    return found
+
+
+def _content(found: "LawFit", predicted: "list[Fit]") -> dict[str, Any]:
+    from dataclasses import asdict
+
+    return found.to_dict() | {"predicted": [asdict(fit) for fit in predicted]}
+
+
+def _print(found: "LawFit", predicted: "list[Fit]") -> None:
+    """Values of every law, errors of the fit and of what was left out."""
+    from rich.table import Table
+
+    from ..current_laws.variable import UNITS
+    from .show import console
+
+    over, unit = found.model.over, UNITS[found.model.over]
+    out = console()
+    table = Table(title=f"{found.model.name}, laws over the {over}", title_justify="left")
+    for column in ("parameter", "law", "values", f"at / {unit}", "unit"):
+        table.add_column(column)
+    for name, p in found.model.laws.items():
+        values = ", ".join(f"{value:.5g}" for value in p.values)
+        nodes = ", ".join(f"{node:g}" for node in p.law.nodes) if len(p.values) > 1 else "all"
+        kind = p.law.kind if p.law.saturation is None else f"saturating, s = {p.law.saturation:.3g} {unit}"
+        table.add_row(name, kind, values, nodes, found.model.units[name])
+    out.print(table)
+    table = Table(title="rms error / % of the force's rms", title_justify="left")
+    for column in (f"{over} / {unit}", "fitted", "predicted from the others"):
+        table.add_column(column, justify="right")
+    left_out = found.left_out.by_level if found.left_out is not None else {}
+    for level, error in found.by_level.items():
+        other = f"{100 * left_out[level]:.3g}" if level in left_out else ""
+        table.add_row(f"{level:g}", f"{100 * error:.3g}", other)
+    out.print(table)
+    out.print(f"rms error {found.rms:.4g} N, {100 * found.relative_rms:.3g} % of the force's rms")
+    if not predicted:
+        return
+    table = Table(title="predicted, not fitted", title_justify="left")
+    for column in ("recording", "current / A", "rms error / N", "% of the force"):
+        table.add_column(column, justify="right" if column != "recording" else "left")
+    for fit in predicted:
+        current = "" if fit.current is None else f"{fit.current:g}"
+        table.add_row(fit.recording, current, f"{fit.rms:.4g}", f"{100 * fit.relative_rms:.3g}")
+    out.print(table)

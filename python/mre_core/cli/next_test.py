@@ -1,0 +1,50 @@
+"""``mre-core next-test``."""
+
+from pathlib import Path
+
+import click
+
+from .arguments import config_option
+
+
+@click.command("next-test")
+@click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
+@click.option(
+    "--out",
+    required=True,
+    type=click.Path(path_type=Path),
+    metavar="CSV",
+    help="File for the command signal.",
+)
+@click.option("--stroke", type=float, help="Largest displacement, mm.")
+@click.option("--speed", type=float, help="Largest speed, mm/s.")
+@click.option("--highest", type=float, help="Highest frequency, Hz.")
+@click.option("--duration", type=float, help="Duration, s.")
+@click.option("--rate", type=float, help="Samples a second.")
+@click.option("--quiet", is_flag=True, help="Print nothing.")
+@config_option
+def next_test(folder: Path, out: Path, quiet: bool, **limits: float | None) -> None:
+    """Write the command signal of the test that the diagnosis in DIR proposes.
+
+    \b
+    Examples:
+      mre-core diagnose *.csv --base sinh --out result
+      mre-core next-test result --out command.csv
+      mre-core next-test result --out command.csv --stroke 5 --duration 30
+    """  # noqa: D301  # \b keeps the lines
+    import numpy as np
+    import pandas as pd
+
+    from ..next_test import command, read_proposal
+    from ..output import write_file
+
+    proposal = read_proposal(folder)
+    signal = command(proposal, **limits)
+    columns = {"time_s": signal.time, "displacement_mm": signal.displacement}
+    if signal.current is not None:
+        columns["current_A"] = signal.current
+    frame = pd.DataFrame(columns).round(9)
+    write_file(out, lambda path: frame.to_csv(path, index=False, lineterminator="\n"))
+    if not quiet:
+        far = np.abs(signal.displacement).max()
+        click.echo(f"{out}: {proposal['why']}; {len(signal.time)} samples, up to {far:.3g} mm")

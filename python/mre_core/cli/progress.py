@@ -1,0 +1,207 @@
+"""What goes on during long work, on standard error: a bar on a terminal, elsewhere a line now and then."""
+
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+OnLevel = Callable[[int, int, float | None], None]
+OnProgress = Callable[[int, int, float], None]
+OnItems = Callable[[int, int, int], None]
+
+EVERY = 30.0
+"""Seconds between two lines; work that is shorter says nothing."""
+
+
+@contextmanager
+def progress(iterations: int, *, quiet: bool) -> Iterator[tuple[OnLevel, OnProgress]]:
+    """Show how far a job of many iterations is, how fast it goes and how long it will take.
+
+    Parameters
+    ----------
+    iterations : int
+        Iterations of each level.
+    quiet : bool
+        Show nothing.
+
+    Yields
+    ------
+    (on_level, on_progress) : tuple of callable
+        To be called with (number, count, current) before each level, and with (iteration, evaluations,
+        best fitness) after each iteration.
+    """
+    from rich.console import Console
+
+    if quiet:
+        yield (lambda *_: None), (lambda *_: None)
+    elif Console(stderr=True).is_terminal:
+        with _bar(iterations) as calls:
+            yield calls
+    else:
+        yield _lines(iterations)
+
+
+@contextmanager
+def spinner(what: str, *, quiet: bool) -> Iterator[None]:
+    """Show that work goes on whose length is not known, and for how long.
+
+    Parameters
+    ----------
+    what : str
+        What is being done.
+    quiet : bool
+        Show nothing.
+    """
+    from rich.console import Console
+    from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+
+    err = Console(stderr=True)
+    if quiet:
+        yield
+    elif err.is_terminal:
+        columns = (SpinnerColumn(), TextColumn("{task.description}"), TimeElapsedColumn())
+        with Progress(*columns, console=err, transient=True) as turning:
+            turning.add_task(what, total=None)
+            yield
+    else:
+        with _heartbeat(what):
+            yield
+
+
+@contextmanager
+def counter(what: str, *, quiet: bool) -> Iterator[OnItems]:
+    """Show how many of many items are done and how many failed.
+
+    Parameters
+    ----------
+    what : str
+        What is being done.
+    quiet : bool
+        Show nothing.
+
+    Yields
+    ------
+    callable
+        To be called with (done, failed, count).
+    """
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+
+    err = Console(stderr=True)
+    said = time.monotonic()
+
+    def note(done: int, failed: int, count: int) -> str:
+        return f"{done} done, {failed} failed of {count}"
+
+    def on_line(done: int, failed: int, count: int) -> None:
+        nonlocal said
+        if not quiet and time.monotonic() - said >= EVERY:
+            said = time.monotonic()
+            _say(f"{what}: {note(done, failed, count)}")
+
+    if quiet or not err.is_terminal:
+        yield on_line
+        return
+    columns = (TextColumn("{task.description}"), BarColumn(), TextColumn("{task.fields[note]}"))
+    times = (TimeElapsedColumn(), TextColumn("left:"), TimeRemainingColumn())
+    with Progress(*columns, *times, console=err, transient=True) as bar:
+        task = bar.add_task(what, total=None, note="")
+
+        def on_items(done: int, failed: int, count: int) -> None:
+            bar.update(task, completed=done + failed, total=count, note=note(done, failed, count))
+
+        yield on_items
+
+
+@contextmanager
+def counted(what: str, *, quiet: bool) -> Iterator[Callable[[int, int], None]]:
+    """Show how many of many jobs are done, to be called with (done, count)."""
+    with counter(what, quiet=quiet) as on_items:
+        yield lambda done, count: on_items(done, 0, count)
+
+
+@contextmanager
+def _bar(iterations: int) -> Iterator[tuple[OnLevel, OnProgress]]:
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+
+    bar = Progress(
+        TextColumn("{task.description}"),
+        BarColumn(),
+        TextColumn("{task.fields[note]}"),
+        TimeElapsedColumn(),
+        TextColumn("left:"),
+        TimeRemainingColumn(),
+        console=Console(stderr=True),
+        transient=True,
+    )
+    task = bar.add_task("identifying", total=iterations, note="")
+    began = time.monotonic()
+
+    def on_level(number: int, count: int, current: float | None) -> None:
+        nonlocal began
+        began = time.monotonic()
+        bar.reset(task, description=_title(number, count, current), note="")
+
+    def on_progress(iteration: int, evaluations: int, best: float) -> None:
+        bar.update(task, completed=iteration, note=_note(evaluations, best, time.monotonic() - began))
+
+    with bar:
+        yield on_level, on_progress
+
+
+def _lines(iterations: int) -> tuple[OnLevel, OnProgress]:
+    began = said = time.monotonic()
+    title = "identifying"
+
+    def on_level(number: int, count: int, current: float | None) -> None:
+        nonlocal began, title
+        began, title = time.monotonic(), _title(number, count, current)
+
+    def on_progress(iteration: int, evaluations: int, best: float) -> None:
+        nonlocal said
+        now = time.monotonic()
+        if now - said < EVERY:
+            return
+        said = now
+        left = (now - began) / max(iteration, 1) * (iterations - iteration)
+        note = _note(evaluations, best, now - began)
+        _say(f"{title}: iteration {iteration} of {iterations}, {note}, about {max(left, 0):.0f} s left")
+
+    return on_level, on_progress
+
+
+@contextmanager
+def _heartbeat(what: str) -> Iterator[None]:
+    """Lines at longer and longer intervals, from a thread of its own."""
+    done = threading.Event()
+
+    def beat() -> None:
+        wait, passed = EVERY, 0.0
+        while not done.wait(wait):
+            passed += wait
+            _say(f"{what} for {passed:.0f} s")
+            wait = max(passed, EVERY)
+
+    thread = threading.Thread(target=beat, daemon=True)
+    thread.start()
+    try:
+        yield
+    finally:
+        done.set()
+        thread.join()
+
+
+def _title(number: int, count: int, current: float | None) -> str:
+    what = "" if current is None else f" {current:g} A"
+    return f"identifying{what} ({number + 1} of {count})"
+
+
+def _note(evaluations: int, best: float, seconds: float) -> str:
+    rate = evaluations / seconds if seconds > 0 else 0.0
+    return f"{evaluations} evaluations, {rate:.3g} a second, rms {best**0.5:.4g} N"
+
+
+def _say(text: str) -> None:
+    print(f"mre-core: {text}", file=sys.stderr, flush=True)

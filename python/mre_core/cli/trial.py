@@ -1,0 +1,109 @@
+"""``mre-core trial``: make, run, open."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from .arguments import WHOLE
+
+if TYPE_CHECKING:
+    from ..trial import Opening
+
+
+@click.group()
+def trial() -> None:
+    """Test the diagnosis on concealed physics: make a trial, run it, open its sealed answers.
+
+    \b
+    Examples:
+      mre-core trial make judged --cases 600 --seed 1001
+      mre-core trial run judged
+      mre-core trial open judged
+    """  # noqa: D301  # \b keeps the lines
+
+
+_folder = click.argument("directory", metavar="DIR", type=click.Path(path_type=Path))
+_workers = click.option("--workers", type=WHOLE, help="Processes; one for each core by default.")
+_quiet = click.option("--quiet", is_flag=True, help="No progress.")
+
+
+@trial.command()
+@_folder
+@click.option("--cases", type=WHOLE, default=600, show_default=True, help="Recorded campaigns.")
+@click.option("--seed", type=WHOLE, help="Same seed, same trial; drawn and sealed where not given.")
+@_workers
+@_quiet
+def make(directory: Path, cases: int, seed: int | None, workers: int | None, quiet: bool) -> None:
+    """Write recordings with concealed effects into DIR, and their answers under a seal.
+
+    Seeds below 1000 are for development, those from 1000 on for judging. Print the seal, the SHA-256 of the
+    answers: whoever keeps it can tell that they were not changed.
+    """
+    from ..trial import make_trial
+    from .progress import counted
+
+    with counted("simulating", quiet=quiet) as advance:
+        seal = make_trial(
+            directory, cases, seed=seed, workers=workers, on_done=lambda done: advance(done, cases)
+        )
+    click.echo(f"seal {seal}")
+
+
+@trial.command()
+@_folder
+@click.option("--resume", is_flag=True, help="Go on with a run that was stopped.")
+@_workers
+@_quiet
+def run(directory: Path, resume: bool, workers: int | None, quiet: bool) -> None:
+    """Diagnose the recordings in DIR. The answers are not read and need not be there."""
+    from ..trial import run_trial
+    from .progress import counted
+
+    with counted("diagnosing", quiet=quiet) as advance:
+        done = run_trial(directory, resume=resume, workers=workers, on_done=advance)
+    click.echo(f"{done} cases diagnosed")
+
+
+@trial.command("open")
+@_folder
+@click.option(
+    "--answers", type=click.Path(path_type=Path), metavar="FILE", help="The answers, kept elsewhere."
+)
+@click.option("--seal", metavar="SHA256", help="The seal that was printed when the trial was made.")
+@click.option("--json", "as_json", is_flag=True, help="Print JSON instead of tables.")
+@click.option("--tables", type=click.Path(path_type=Path), metavar="FOLDER", help="Write Markdown tables.")
+def open_(
+    directory: Path, answers: Path | None, seal: str | None, as_json: bool, tables: Path | None
+) -> None:
+    """Check the seal of DIR, compare the diagnoses with the answers, and print what came out."""
+    from ..output import staged
+    from ..trial import open_trial
+
+    found = open_trial(directory, answers=answers, seal=seal)
+    if tables is not None:
+        with staged(tables) as stage:
+            stage.path("seal.md").write_text(f"{found}\n", encoding="utf-8")
+            for sheet in found.sheets:
+                stage.path(f"{sheet.name}.md").write_text(sheet.markdown(), encoding="utf-8")
+    if as_json:
+        click.echo((directory / "results.json").read_text(encoding="utf-8"), nl=False)
+    else:
+        _print(found)
+
+
+def _print(found: "Opening") -> None:
+    from rich.markup import escape
+    from rich.table import Table
+
+    from .show import console
+
+    out = console()
+    out.print(str(found))
+    for sheet in found.sheets:
+        table = Table(title=sheet.title, title_justify="left")
+        for i, column in enumerate(sheet.columns):
+            table.add_column(column, justify="left" if i in sheet.text else "right")
+        for row in sheet.rows:
+            table.add_row(*(escape(cell) for cell in row))
+        out.print(table)

@@ -1,0 +1,212 @@
+"""A campaign as a joint fit sees it: levels of the current, and recordings whose current changes.
+
+What is said of the current holds for what else laws may run over (`variable`).
+"""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .._core import Recording
+from ..errors import InputError
+from ..grouping import same_level
+from .factors import DirectFactor, Samples, SinhFactor, triangle
+from .law import Dependence, Law
+from .shapes import ShapeBox, shape_boxes
+from .structure import Structure
+from .variable import series_of
+
+Array = NDArray[np.float64]
+
+
+class Part(Protocol):
+    """Samples that enter a joint fit."""
+
+    @property
+    def currents(self) -> tuple[float, ...]:
+        """Lowest and highest current in A."""
+        ...
+
+    def rows(self, laws: Sequence[Law], shapes: Sequence[Dependence]) -> tuple[Array, Array]:
+        """Columns of all values of the coefficients' laws, and the force: (k, p) and (k,)."""
+        ...
+
+
+@dataclass
+class Steady:
+    """All recordings at one level."""
+
+    members: list[float]
+    """The level of each."""
+    factor: SinhFactor | DirectFactor
+
+    @property
+    def currents(self) -> tuple[float, ...]:
+        """The level."""
+        return (float(np.mean(self.members)),)
+
+    def rows(self, laws: Sequence[Law], shapes: Sequence[Dependence]) -> tuple[Array, Array]:
+        """Columns at the level, each times the weights of its law."""
+        (current,) = self.currents
+        columns, right = self.factor.columns(tuple(float(shape.at(current)[0]) for shape in shapes))
+        return np.hstack([columns[:, [j]] * _weights(law, current) for j, law in enumerate(laws)]), right
+
+
+@lru_cache(maxsize=4096)
+def _weights(law: Law, current: float) -> Array:
+    """Keep the weights at levels: laws without a searched saturation ask for the same again and again."""
+    return law.weights(current)
+
+
+@dataclass
+class Changing:
+    """A recording whose current changes; kept in memory."""
+
+    structure: Structure
+    samples: Samples
+    series: Array
+    """What the laws run over, one value a sample."""
+
+    @property
+    def currents(self) -> tuple[float, ...]:
+        """Lowest and highest."""
+        return (float(self.series.min()), float(self.series.max()))
+
+    def rows(self, laws: Sequence[Law], shapes: Sequence[Dependence]) -> tuple[Array, Array]:
+        """Columns sample by sample, turned to as many rows as columns."""
+        for name, shape in zip(self.structure.shapes, shapes, strict=True):
+            if shape.law.kind != "constant":
+                problem = f"{name} follows what changes within '{self.samples.recording.name}'"
+                raise InputError(problem, wanted=f"{name} constant")
+        values = tuple(shape.values[0] for shape in shapes)
+        samples = self.samples.at(values)
+        current = self.series[slice(*self.samples.recording.scored)]
+        weighted = [samples[:, [j]] * law.weights(current) for j, law in enumerate(laws)]
+        factor = triangle(np.hstack([*weighted, samples[:, -1:]]))
+        return factor[:, :-1], factor[:, -1]
+
+
+@dataclass(frozen=True)
+class Campaign:
+    """Recordings of several currents, worked in."""
+
+    structure: Structure
+    parts: tuple[Part, ...]
+    limits: Mapping[str, tuple[float, float]]
+    """Of the coefficients."""
+    shape_boxes: Mapping[str, ShapeBox]
+    tested: Mapping[str, float]
+    """Largest displacement in mm and velocity in mm/s."""
+    current: float | None
+    """Of all recordings, where that is not what the laws run over."""
+    samples: int
+    weight: float
+    """Sum of the weights of all samples."""
+
+    @property
+    def levels(self) -> tuple[float, ...]:
+        """Currents in A, rising: the levels, and the ends of a current that changes beyond them."""
+        steady = {p.currents[0] for p in self.parts if len(p.currents) == 1}
+        ends = [end for p in self.parts for end in p.currents]
+        return tuple(sorted({*steady, min(ends), max(ends)}))
+
+    def without(self, level: float) -> "Campaign":
+        """Leave out the recordings at one level."""
+        return replace(self, parts=tuple(p for p in self.parts if p.currents != (level,)))
+
+    def only(self, level: float) -> "Campaign":
+        """Keep the recordings at one level alone."""
+        return replace(self, parts=tuple(p for p in self.parts if p.currents == (level,)))
+
+    def rows(self, laws: Sequence[Law], shapes: Sequence[Dependence]) -> tuple[Array, Array]:
+        """Columns and force of all parts, one below the other."""
+        parts = [part.rows(laws, shapes) for part in self.parts]
+        return np.vstack([rows for rows, _ in parts]), np.concatenate([right for _, right in parts])
+
+
+def read_campaign(
+    recordings: Iterable[Recording],
+    structure: Structure,
+    bounds: Mapping[str, tuple[float, float]],
+    over: str,
+    *,
+    by_force: bool,
+) -> Campaign:
+    """Work in recordings one after the other; `by_force` weights them by their mean squared force.
+
+    `over` is what laws run over; where that is not the current, all recordings have the same one.
+
+    Raises
+    ------
+    InputError
+        No recording, one without force or without what the laws run over, other currents beside that, a
+        bound of no parameter, or one that is reversed.
+    """
+    steady: list[Steady] = []
+    changing: list[Changing] = []
+    farthest = fastest = strongest = weights = 0.0
+    samples = 0
+    currents: set[float | None] = set()
+    for recording in recordings:
+        force = recording.force
+        if force is None:
+            raise InputError(f"recording '{recording.name}' has no force", wanted="a force to fit")
+        first, last = recording.scored
+        weight = 1.0 / max(float(np.mean(force[first:last] ** 2)), 1e-300) if by_force else 1.0
+        farthest = max(farthest, float(np.abs(recording.displacement).max()))
+        fastest = max(fastest, float(np.abs(recording.velocity).max()))
+        strongest = max(strongest, float(np.abs(force).max()))
+        samples += last - first
+        weights += weight * (last - first)
+        series = series_of(recording, over)
+        if len(series) > 1:
+            changing.append(Changing(structure, Samples(structure, recording, weight), series))
+        else:
+            _level(steady, float(series[0]), structure).add(recording, weight)
+        if over != "current":
+            currents.add(_steady_current(recording, over))
+    if len(currents) > 1:
+        found = ", ".join("unknown" if c is None else f"{c:g} A" for c in sorted(currents, key=str))
+        raise InputError(f"recordings at several currents ({found})", wanted=f"one, for laws over {over}")
+    if not samples:
+        raise InputError("recordings are an empty list", wanted="at least one recording")
+    for name, (low, high) in bounds.items():
+        if name not in structure.names:
+            raise InputError(f"bounds for '{name}'", wanted=f"one of {', '.join(structure.names)}")
+        if not low <= high:
+            raise InputError(f"bounds of {name} are {low} to {high}", wanted="lower at most upper")
+    limits = structure.limits(strongest)
+    held = [p.factor for p in steady if isinstance(p.factor, DirectFactor)]
+    kept = [r for factor in held for r in factor.recordings] + [c.samples.recording for c in changing]
+    return Campaign(
+        structure,
+        (*sorted(steady, key=lambda p: p.currents), *changing),
+        {name: bounds.get(name, limits[name]) for name in structure.coefficients},
+        shape_boxes(structure, farthest, kept, bounds),
+        {"displacement_mm": farthest, "velocity_mm_s": fastest},
+        next(iter(currents), None),
+        samples,
+        weights,
+    )
+
+
+def _steady_current(recording: Recording, over: str) -> float | None:
+    if recording.current_varies:
+        problem = f"the current changes within '{recording.name}'"
+        raise InputError(problem, wanted=f"a constant one, for laws over {over}")
+    return recording.current_level
+
+
+def _level(steady: list[Steady], current: float, structure: Structure) -> SinhFactor | DirectFactor:
+    """Find the factor of the level that a current belongs to, by the tolerance of `group_by_current`."""
+    for level in steady:
+        if same_level(current, level.currents[0]):
+            level.members.append(current)
+            return level.factor
+    kind = DirectFactor if structure.model == "bouc_wen" else SinhFactor
+    steady.append(Steady([current], kind(structure)))
+    return steady[-1].factor

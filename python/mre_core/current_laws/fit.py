@@ -1,0 +1,167 @@
+"""From a campaign to a model whose parameters follow the current."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+
+from .._core import Recording
+from ..errors import InputError
+from ..model import Level, Model
+from .campaign import Campaign, read_campaign
+from .choose import Trial, choose, laws_of, leave_one_current_out, misfit
+from .joint import Joint, fit
+from .law import FEWEST, LAWS
+from .structure import Structure
+from .variable import Over, check_over
+
+
+@dataclass(frozen=True)
+class LawFit:
+    """A model with laws over the current, and how well it does."""
+
+    model: Model
+    rms: float
+    """Rms error in N over all samples, by the weights of the fit."""
+    relative_rms: float
+    """The same as a share of the force's rms."""
+    by_level: Mapping[float, float]
+    """The same by level of the current in A, or of what else the laws run over."""
+    left_out: Trial | None
+    """How well each level is predicted from the others; None where there are too few."""
+    trials: tuple[Trial, ...]
+    """What was tried to choose the laws, in that order; empty where all were given."""
+    samples: int
+
+    def to_dict(self) -> dict[str, Any]:
+        """Content of ``laws.json``."""
+        return {
+            "schema": "mre-core/laws/1",
+            "model": self.model.name,
+            "laws": {name: law.to_dict() for name, law in self.model.laws.items()},
+            "rms_N": self.rms,
+            "relative_rms": self.relative_rms,
+            "over": self.model.over,
+            "relative_rms_by_level": _rows(self.by_level),
+            "left_out": None if self.left_out is None else _trial(self.left_out),
+            "trials": [_trial(trial) for trial in self.trials],
+            "samples": self.samples,
+        }
+
+
+def fit_laws(
+    recordings: Iterable[Recording],
+    model: str = "sinh",
+    laws: Mapping[str, str] | None = None,
+    shared: Sequence[str] = (),
+    *,
+    over: Over = "current",
+    bounds: Mapping[str, tuple[float, float]] | None = None,
+    weights: Literal["samples", "force"] = "samples",
+) -> LawFit:
+    """Fit all currents of a campaign together, with a law over the current for every parameter.
+
+    Parameters
+    ----------
+    recordings : iterable of Recording
+        With force and current, which may change within a recording. For `sinh` and `kelvin_voigt` they are
+        read once, one after the other, and only a factor of 27 columns is kept for every current: a
+        generator that loads them needs the memory of one.
+    model : {"kelvin_voigt", "sinh", "bouc_wen"}
+        What to fit.
+    laws : mapping, optional
+        ``"constant"``, ``"linear"``, ``"quadratic"``, ``"saturating"`` or ``"free"`` by parameter. Those not
+        named are chosen: by the error at currents that are left out of the fit.
+    shared : sequence of str
+        Parameters that are the same at all currents; the same as ``"constant"``.
+    over : {"current", "temperature", "amplitude"}
+        What laws run over: A, degC, or the largest displacement in mm. Where it is not the current, all
+        recordings have the same one.
+    bounds : mapping of name to (lower, upper), optional
+        Of the values of a parameter, in place of the default ones.
+    weights : {"samples", "force"}
+        Every sample counts the same, or every recording by its mean squared force.
+
+    Returns
+    -------
+    LawFit
+        `simulate` takes its model for any current inside the tested ones, steady or changing.
+
+    Raises
+    ------
+    MreError
+        An unknown model, parameter or law; a law with more values than there are currents; a recording
+        without force or current.
+    """
+    from threadpoolctl import threadpool_limits  # type: ignore[import-untyped]
+
+    structure = Structure.of(model)
+    check_over(over)
+    if weights not in ("samples", "force"):
+        raise InputError(f"weights is {weights!r}", wanted="samples or force")
+    given = _given(structure, laws or {}, shared)
+    with threadpool_limits(1, "blas"):  # the same bits on any machine, and no waiting of small matrices
+        campaign = read_campaign(recordings, structure, bounds or {}, over, by_force=weights == "force")
+        for name, kind in given.items():
+            if len(campaign.levels) < FEWEST[kind]:
+                found = f"{kind} for {name} with {len(campaign.levels)} levels of the {over}"
+                raise InputError(found, wanted=f"at least {FEWEST[kind]}")
+        kinds, trials, start = given, list[Trial](), None
+        if len(given) < len(structure.names):
+            kinds, trials, start = choose(campaign, given)
+        joint = fit(campaign, laws_of(kinds, campaign.levels), start)
+        left_out = leave_one_current_out(campaign, kinds, joint)
+        return _result(campaign, joint, over, left_out, trials)
+
+
+def _given(structure: Structure, laws: Mapping[str, str], shared: Sequence[str]) -> dict[str, str]:
+    for name in (*laws, *shared):
+        if name not in structure.names:
+            raise InputError(f"a law for '{name}'", wanted=f"one of {', '.join(structure.names)}")
+        if name in laws and name in shared and laws[name] != "constant":
+            raise InputError(f"{name} is shared and {laws[name]}", wanted="one of them")
+    for name, kind in laws.items():
+        if kind not in LAWS:
+            raise InputError(f"the law of {name} is {kind!r}", wanted=f"one of {', '.join(LAWS)}")
+    found = {**laws, **dict.fromkeys(shared, "constant")}
+    return {name: found[name] for name in structure.names if name in found}
+
+
+def _result(
+    campaign: Campaign, joint: Joint, over: str, left_out: Trial | None, trials: Sequence[Trial]
+) -> LawFit:
+    tested = campaign.levels
+    if over == "current":
+        levels = tuple(Level(current, joint.at(current)) for current in tested)
+    else:  # a level is one of the current
+        levels = (Level(campaign.current, joint.at(0.5 * (tested[0] + tested[-1]))),)
+    ends = {} if over == "current" else {f"{over}_from": tested[0], f"{over}_to": tested[-1]}
+    squares, force = misfit(campaign, joint)
+    by_level = {}
+    for part in campaign.parts:
+        if len(part.currents) == 1:
+            error, size = misfit(campaign.only(part.currents[0]), joint)
+            by_level[part.currents[0]] = float(np.sqrt(error / size))
+    mean = squares / campaign.weight
+    scale = force / campaign.weight
+    return LawFit(
+        Model(
+            campaign.structure.model, levels, {**campaign.tested, **ends}, laws=joint.parameters, over=over
+        ),
+        float(np.sqrt(mean)),
+        float(np.sqrt(mean / scale)),
+        by_level,
+        left_out,
+        tuple(trials),
+        campaign.samples,
+    )
+
+
+def _trial(trial: Trial) -> dict[str, Any]:
+    by_level = _rows(trial.by_level)
+    return {"laws": dict(trial.laws), "relative_rms": trial.error, "relative_rms_by_level": by_level}
+
+
+def _rows(by_level: Mapping[float, float]) -> list[dict[str, float]]:
+    return [{"level": level, "relative_rms": error} for level, error in by_level.items()]

@@ -1,0 +1,124 @@
+"""Sizes that no recording of a rig has: a small file can unpack to more than the memory."""
+
+from pathlib import Path
+from typing import Final
+
+from ..errors import InputError
+
+MOST_BYTES: Final = 2 * 2**30
+MOST_VALUES: Final = 2 * 10**8
+
+
+def read_bytes(path: Path) -> bytes:
+    """Read a whole file.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+
+    Returns
+    -------
+    bytes
+        Its content.
+
+    Raises
+    ------
+    InputError
+        It is missing, not readable, no regular file or too large.
+    """
+    check_file(path)
+    try:
+        return path.read_bytes()
+    except OSError as error:
+        raise _unreadable(path, error) from None
+
+
+def check_file(path: Path) -> None:
+    """Refuse what is no readable file of a sensible size.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+
+    Raises
+    ------
+    InputError
+        It is missing, not readable, no regular file or too large.
+    """
+    try:
+        size = path.stat().st_size
+        if path.is_dir():
+            wanted = f"one of the files in it, such as {path / '*.csv'}"
+            raise InputError("is a folder", file=str(path), wanted=wanted)
+        with path.open("rb"):
+            pass
+    except FileNotFoundError:
+        raise InputError(f"there is no such file{_nearest(path)}", file=str(path)) from None
+    except OSError as error:
+        raise _unreadable(path, error) from None
+    if size > MOST_BYTES:
+        wanted = f"at most {MOST_BYTES / 2**30:.0f} GiB (mre_core.read_chunks reads CSV of any size)"
+        raise InputError(f"has {size / 2**30:.1f} GiB", file=str(path), value=size, wanted=wanted)
+
+
+def check_values(count: int, file: str) -> None:
+    """Refuse a file that says it holds an absurd number of values.
+
+    Parameters
+    ----------
+    count : int
+        Values once unpacked.
+    file : str
+        The file.
+
+    Raises
+    ------
+    InputError
+        There are too many.
+    """
+    if count > MOST_VALUES:
+        problem = f"unpacks to {count:.3g} values"
+        raise InputError(problem, file=file, value=count, wanted=f"at most {MOST_VALUES:.0e}")
+
+
+def check_archive(path: Path) -> None:
+    """Refuse a zip archive, such as an .xlsx, that unpacks to an absurd size.
+
+    Parameters
+    ----------
+    path : Path
+        The archive.
+
+    Raises
+    ------
+    InputError
+        It is no whole archive, or too large.
+    """
+    import zipfile
+
+    try:
+        with zipfile.ZipFile(path) as archive:
+            size = sum(member.file_size for member in archive.infolist())
+    except zipfile.BadZipFile as error:
+        raise InputError(f"cannot be read: {error}", file=str(path), wanted="a whole file") from None
+    if size > MOST_BYTES:
+        wanted = f"at most {MOST_BYTES / 2**30:.0f} GiB"
+        raise InputError(f"unpacks to {size / 2**30:.1f} GiB", file=str(path), value=size, wanted=wanted)
+
+
+def _nearest(path: Path) -> str:
+    """Name the file beside it that is called nearly so."""
+    from difflib import get_close_matches
+
+    try:
+        names = [other.name for other in path.parent.iterdir()]
+    except OSError:
+        return ""
+    near = get_close_matches(path.name, names, n=1, cutoff=0.8)
+    return f" (nearest: {near[0]})" if near else ""
+
+
+def _unreadable(path: Path, error: OSError) -> InputError:
+    return InputError(f"cannot be read: {error.strerror or error}", file=str(path), wanted="a readable file")

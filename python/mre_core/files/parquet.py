@@ -1,0 +1,59 @@
+"""Parquet: one table; the unit of a column may stand in the metadata of its field."""
+
+from pathlib import Path
+from typing import Any, Final
+
+from ..errors import InputError
+from .arrays import readable
+from .extras import need
+from .limits import check_values
+from .options import ReadOptions
+from .table import MemoryTable, NoTableError, Table, with_unit
+
+_UNIT_KEYS: Final = (b"unit", b"units", b"Unit", b"Units")
+
+
+def read(path: Path, options: ReadOptions) -> list[Table]:
+    """Read a Parquet file.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    options : ReadOptions
+        Not used.
+
+    Returns
+    -------
+    list of Table
+        The one table.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read or is empty.
+    """
+    file = str(path)
+    arrow = need("pyarrow", "parquet", file=file)
+    parquet = need("pyarrow.parquet", "parquet", file=file)
+    try:
+        with parquet.ParquetFile(path) as opened:
+            check_values(opened.metadata.num_rows * opened.metadata.num_columns, file)
+            table = opened.read()
+    except (arrow.ArrowException, OSError) as error:
+        raise InputError(f"cannot be read: {error}", file=file, wanted="a whole Parquet file") from None
+    if not table.num_rows:
+        raise NoTableError("has no rows", file=file, wanted="rows of numbers")
+    columns: dict[str, Any] = {}
+    for field, column in zip(table.schema, table.columns, strict=True):
+        header = with_unit(field.name, _unit(field.metadata))
+        if header in columns:
+            raise InputError(
+                f"has the column '{header}' twice", file=file, wanted="a different name for each"
+            )
+        columns.update([readable(header, column.to_numpy())])
+    return [MemoryTable(file, columns, notes=["Parquet"])]
+
+
+def _unit(metadata: Any) -> object:
+    return next((metadata[key] for key in _UNIT_KEYS if metadata and key in metadata), None)

@@ -1,0 +1,108 @@
+"""The command signal of the test that a diagnosis proposes."""
+
+import json
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _core
+from .errors import InputError
+
+
+@dataclass(frozen=True)
+class Command:
+    """A command signal for a test machine."""
+
+    excitation: str
+    time: NDArray[np.float64]
+    """s, shape (n,)."""
+    displacement: NDArray[np.float64]
+    """mm, shape (n,)."""
+    current: NDArray[np.float64] | None
+    """A, shape (n,), where it is commanded."""
+
+
+def command(
+    proposal: Mapping[str, Any],
+    *,
+    stroke: float | None = None,
+    speed: float | None = None,
+    highest: float | None = None,
+    duration: float | None = None,
+    rate: float | None = None,
+) -> Command:
+    """Make the signal of a proposed test, within limits.
+
+    Parameters
+    ----------
+    proposal : mapping
+        ``next_test`` of a diagnosis.
+    stroke, speed, highest, duration, rate : float, optional
+        Largest displacement in mm and speed in mm/s, highest frequency in Hz, duration in s, samples a
+        second; those of the recordings by default.
+
+    Returns
+    -------
+    Command
+        Time in s and displacement in mm, and the current in A where it is commanded.
+
+    Raises
+    ------
+    MreError
+        A limit that is not positive and finite (a ValueError).
+    """
+    known = proposal["limits"]
+    given = {
+        "stroke": (stroke, "stroke_mm"),
+        "speed": (speed, "speed_mm_s"),
+        "highest": (highest, "highest_hz"),
+        "duration": (duration, "duration_s"),
+        "rate": (rate, "rate_hz"),
+    }
+    limits = {name: known[key] if value is None else value for name, (value, key) in given.items()}
+    for name, value in limits.items():
+        if isinstance(value, bool) or not (np.isfinite(value) and value > 0):
+            raise InputError(f"{name} is {value!r}", wanted="a positive number")
+    if limits["highest"] > limits["rate"] / 2:
+        raise InputError(
+            f"highest is {limits['highest']:g} Hz at {limits['rate']:g} samples a second",
+            wanted="less than half the rate",
+        )
+    if limits["rate"] * limits["duration"] < 16:
+        raise InputError(
+            f"duration is {limits['duration']:g} s at {limits['rate']:g} samples a second",
+            wanted="at least 16 samples",
+        )
+    current = known["current_A"]
+    time, displacement, steps = _core.excitation(
+        proposal["excitation"], **limits, current=tuple(current) if current else None
+    )
+    return Command(proposal["excitation"], time, displacement, steps)
+
+
+def read_proposal(folder: str | os.PathLike[str]) -> Mapping[str, Any]:
+    """Read what a diagnosis in a folder proposes.
+
+    Raises
+    ------
+    MreError
+        No diagnosis, or one that proposes nothing.
+    """
+    path = Path(folder) / "diagnosis.json"
+    try:
+        found = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise InputError(
+            f"{path} cannot be read", wanted="a folder that `diagnose --out` has written"
+        ) from error
+    proposal = found.get("next_test") if isinstance(found, dict) else None
+    if not isinstance(proposal, dict) or "limits" not in proposal:
+        raise InputError(
+            f"{path} proposes no test", wanted="a diagnosis with something in doubt that a test would resolve"
+        )
+    return proposal

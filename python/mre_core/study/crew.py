@@ -1,0 +1,58 @@
+"""Independent jobs side by side, with progress, and stopped together."""
+
+import os
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from threading import Event
+from typing import Any, TypeVar
+
+from ..errors import InputError
+
+Job = TypeVar("Job")
+Outcome = TypeVar("Outcome")
+OnProgress = Callable[[str, int, int], Any]
+"""Called with (what is computed, jobs done, jobs in all)."""
+
+
+class Crew:
+    """Threads for the jobs of a study.
+
+    Parameters
+    ----------
+    threads : int, optional
+        How many; all cores by default. No result depends on it.
+    on_progress : callable, optional
+        See `OnProgress`; called from the thread that called `run`.
+
+    Raises
+    ------
+    InputError
+        Fewer than one thread.
+    """
+
+    def __init__(self, threads: int | None = None, on_progress: OnProgress | None = None) -> None:
+        if threads is not None and threads < 1:
+            raise InputError(f"threads is {threads}", wanted="at least 1")
+        self._threads = threads or os.cpu_count() or 1
+        self._on_progress = on_progress or (lambda *_: None)
+        self._stop = Event()
+
+    @property
+    def options(self) -> dict[str, Any]:
+        """Options for a swarm inside a job: one thread, and an end when the crew is stopped."""
+        return {"threads": 1, "callback": lambda *_: self._stop.is_set()}
+
+    def run(self, what: str, work: Callable[[Job], Outcome], jobs: Sequence[Job]) -> list[Outcome]:
+        """Do all jobs; outcomes in the order of the jobs."""
+        self._on_progress(what, 0, len(jobs))
+        with ThreadPoolExecutor(self._threads) as pool:
+            waiting = [pool.submit(work, job) for job in jobs]
+            try:
+                for done, future in enumerate(as_completed(waiting), 1):
+                    future.result()
+                    self._on_progress(what, done, len(jobs))
+            except BaseException:
+                self._stop.set()  # Ctrl-C reaches this thread only; the jobs ask here
+                pool.shutdown(cancel_futures=True)
+                raise
+        return [future.result() for future in waiting]

@@ -1,0 +1,140 @@
+"""What lies in the folder of a trial, and how it is read."""
+
+import hashlib
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from ..errors import InputError
+
+TRIAL = "mre-core/trial/1"
+ANSWERS = "mre-core/trial-answers/1"
+DIAGNOSIS = "mre-core/trial-diagnosis/1"
+RESULTS = "mre-core/trial-results/1"
+
+
+@dataclass(frozen=True)
+class Folder:
+    """Paths of a trial."""
+
+    root: Path
+
+    @property
+    def trial(self) -> Path:
+        """What a diagnosis may know: the cases, their base models, and the seal."""
+        return self.root / "trial.json"
+
+    @property
+    def answers(self) -> Path:
+        """What is concealed."""
+        return self.root / "answers.json"
+
+    @property
+    def results(self) -> Path:
+        """What came out, once opened."""
+        return self.root / "results.json"
+
+    @property
+    def diagnoses(self) -> Path:
+        """One file a case."""
+        return self.root / "diagnoses"
+
+    def recordings(self, case: str) -> list[Path]:
+        """CSV files of a case."""
+        return sorted((self.root / "recordings" / case).glob("*.csv"))
+
+    def diagnosis(self, case: str) -> Path:
+        """Diagnosis of a case."""
+        return self.diagnoses / f"{case}.json"
+
+    def cases(self) -> dict[str, str]:
+        """Return the base model by case, as ``trial.json`` lists them."""
+        listed = self.stated("cases")
+        try:
+            return {str(one["id"]): str(one["base"]) for one in listed}
+        except (TypeError, KeyError):
+            raise InputError(
+                f"cases are {str(listed)[:40]!r}", file=str(self.trial), wanted="a list of ids and bases"
+            ) from None
+
+    def stated(self, key: str) -> Any:
+        """Return an entry of ``trial.json``."""
+        if not self.trial.is_file():
+            raise InputError(
+                "holds no trial: there is no trial.json",
+                file=str(self.root),
+                wanted="a folder of 'trial make'",
+            )
+        content = read(self.trial, TRIAL)
+        if key not in content:
+            raise InputError(f"has no '{key}'", file=str(self.trial), wanted="a file of 'trial make'")
+        return content[key]
+
+
+def read(path: Path, schema: str) -> dict[str, Any]:
+    """Read JSON of a schema.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    schema : str
+        What its entry "schema" has to say.
+
+    Returns
+    -------
+    dict
+        Its content.
+
+    Raises
+    ------
+    InputError
+        It is not there, no JSON, or of another schema.
+    """
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(f"cannot be read: {error.strerror}", file=str(path)) from None
+    except ValueError as error:  # not UTF-8 or not JSON
+        raise InputError(f"is not JSON: {error}", file=str(path)) from None
+    found = content.get("schema") if isinstance(content, dict) else None
+    if found != schema:
+        raise InputError(f"schema is {found!r}", file=str(path), wanted=repr(schema))
+    return dict(content)
+
+
+def digest(paths: list[Path]) -> str:
+    """SHA-256 of files, one after the other in the order of their names, names included.
+
+    Parameters
+    ----------
+    paths : list of Path
+        Files.
+
+    Returns
+    -------
+    str
+        64 hexadecimal digits.
+    """
+    found = hashlib.sha256()
+    for path in sorted(paths):
+        found.update(path.name.encode() + b"\0")
+        found.update(hashlib.sha256(path.read_bytes()).digest())
+    return found.hexdigest()
+
+
+def seal_of(path: Path) -> str:
+    """SHA-256 of the answers.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+
+    Returns
+    -------
+    str
+        64 hexadecimal digits.
+    """
+    return hashlib.sha256(path.read_bytes()).hexdigest()

@@ -1,0 +1,193 @@
+//! A diagnosis as JSON.
+
+use mre::assembly::{Assembly, Base};
+use mre::diagnose::{self, Diagnosis, Estimate, Estimates, NextTest, On, Place, Proof, Prospect, Unknown};
+use mre::effect::Effect;
+use serde_json::{Value, json};
+
+pub(super) fn describe(found: &Diagnosis, base: &Base, own: usize) -> Value {
+    let evidence = &found.evidence;
+    let begun = &found.base.assembly;
+    let of_base = |assembly: &Assembly, estimates: &Estimates| -> Vec<Value> {
+        (0..own).map(|place| law(assembly, estimates, place)).collect()
+    };
+    json!({
+        "verdict": found.verdict.id(),
+        "effects": found.effects.iter().map(|e| effect(found, e)).collect::<Vec<_>>(),
+        "where": found.places.iter().map(|f| place(&f.place, f.strength)).collect::<Vec<_>>(),
+        "base_levels": levels(base, &found.base_estimates),
+        "final_levels": levels(base, &found.estimates),
+        "base_effects": of_base(begun, &found.base_estimates),
+        "final_base_effects": of_base(&found.named.assembly, &found.estimates),
+        "before": proof(&found.before),
+        "after": proof(&found.after),
+        "noise_rms": found.noise_rms,
+        "p_base": evidence.p_base,
+        "p_rest": evidence.p_rest,
+        "rest_share": evidence.share,
+        "lack_of_fit_N": evidence.lack_of_fit,
+        "approximate": evidence.approximate(),
+        "candidates": diagnose::beside(&found.named.scores),
+        "absorbed": found.absorbed.iter().map(absorbed).collect::<Vec<_>>(),
+        "unknown": found.unknown.as_ref().map(unknown),
+        "nearest": found.nearest,
+        "next_test": found.next_test.as_ref().map(next_test),
+        "sizes": sizes(found),
+    })
+}
+
+/// What an unexplained mismatch depends on, and its map.
+fn unknown(u: &Unknown) -> Value {
+    let depends_on: Vec<Value> = u
+        .depends_on
+        .iter()
+        .map(|d| {
+            let (on, memory) = match d.on {
+                On::Displacement => ("displacement", None),
+                On::Velocity => ("velocity", None),
+                On::State => ("state", None),
+                On::Force => ("force", None),
+                On::Acceleration => ("acceleration", None),
+                On::Memory(seconds) => ("memory", Some(seconds)),
+                On::Reversal(share) => ("reversal", Some(share)),
+                On::Amplitude => ("amplitude", None),
+                On::Largest => ("largest_displacement", None),
+                On::Path => ("path", None),
+                On::Heat => ("dissipated_power", None),
+                On::Time => ("time", None),
+                On::Current => ("current", None),
+                On::Recording => ("recording", None),
+            };
+            json!({"on": on, "size": memory, "share": d.share})
+        })
+        .collect();
+    json!({
+        "depends_on": depends_on, "odd": u.odd, "dissipative": u.dissipative, "rms_N": u.rms,
+        "map": {"x_mm": u.map.displacement, "v_mm_s": u.map.velocity, "force_N": u.map.force},
+    })
+}
+
+fn next_test(found: &NextTest) -> Value {
+    let prospect = |p: &Prospect| {
+        let chances: serde_json::Map<String, Value> =
+            p.chances.iter().map(|(id, chance)| ((*id).to_owned(), json!(chance))).collect();
+        json!({
+            "excitation": p.kind.id(), "frequency_hz": p.frequency, "amplitude_mm": p.amplitude,
+            "chances": chances,
+        })
+    };
+    let l = &found.limits;
+    json!({
+        "prospects": found.prospects.iter().map(prospect).collect::<Vec<_>>(),
+        "limits": {
+            "stroke_mm": l.stroke, "speed_mm_s": l.speed, "highest_hz": l.highest, "duration_s": l.duration,
+            "rate_hz": l.rate, "current_A": l.current,
+        },
+    })
+}
+
+fn absorbed(a: &diagnose::Absorbed) -> Value {
+    json!({
+        "id": a.effect, "parameter": a.parameter.0, "unit": a.parameter.1, "up_to": a.up_to,
+        "whatever_its_size": a.whatever_its_size,
+    })
+}
+
+fn proof(proof: &Proof) -> Value {
+    json!({
+        "train_rms": proof.train_rms,
+        "held_out_rms": proof.held_out_rms,
+        "by_recording": proof.by_recording,
+    })
+}
+
+fn estimate(e: &Estimate) -> Value {
+    let finite = |v: f64| if v.is_finite() { json!(v) } else { Value::Null };
+    json!({"name": e.name, "unit": e.unit, "value": e.value, "low": finite(e.low), "high": finite(e.high)})
+}
+
+fn effect(found: &Diagnosis, named: &diagnose::Effect) -> Value {
+    let mut row = law(&found.named.assembly, &found.estimates, named.place);
+    row["p_value"] = json!(named.p_value);
+    row["indistinguishable_from"] = json!(named.rivals);
+    row["held_out_rms_before"] = json!(named.held_out_before);
+    row["held_out_rms_after"] = json!(named.held_out_after);
+    row
+}
+
+/// One of the effects of an assembly, with its parameters. Coefficients of the measurement come recording by
+/// recording.
+fn law(assembly: &Assembly, estimates: &Estimates, place: usize) -> Value {
+    let sizes = assembly.campaign().sizes();
+    let recordings = assembly.campaign().recordings().len();
+    let (mut coefficient, mut shape) = (assembly.base_coefficients(), assembly.base_shapes());
+    let count = |e: &&'static dyn Effect| {
+        let copies = if e.of_the_measurement() { recordings } else { 1 };
+        (copies * e.coefficients().len(), e.shape(sizes).len())
+    };
+    for before in &assembly.effects()[..place] {
+        let (coefficients, shapes) = count(before);
+        coefficient += coefficients;
+        shape += shapes;
+    }
+    let this = &assembly.effects()[place];
+    let (about, (coefficients, shapes)) = (this.about(), count(this));
+    let rows = |all: &[Estimate]| all.iter().map(estimate).collect::<Vec<_>>();
+    json!({
+        "place": place, "id": about.effect, "law": about.law, "plain": about.plain, "equation": about.equation,
+        "reference": about.reference, "limit": about.limit, "of_the_measurement": this.of_the_measurement(),
+        "coefficients": rows(&estimates.coefficients[coefficient..coefficient + coefficients]),
+        "shapes": rows(&estimates.shapes[shape..shape + shapes]),
+    })
+}
+
+fn place(place: &Place, strength: f64) -> Value {
+    match place {
+        Place::Time { recording, from, to } => json!({
+            "kind": "time", "recording": recording, "from": from, "to": to, "strength": strength,
+        }),
+        Place::State { x, v } => json!({"kind": "state", "x_mm": x, "v_mm_s": v, "strength": strength}),
+        Place::Harmonic { recording, harmonic, drive, in_phase } => json!({
+            "kind": "harmonic", "recording": recording, "harmonic": harmonic, "drive_hz": drive,
+            "in_phase": in_phase, "strength": strength,
+        }),
+        Place::Recording { recording, damping } => json!({
+            "kind": "recording", "recording": recording, "damping": damping, "strength": strength,
+        }),
+    }
+}
+
+/// Parameters of the model for every group, in the model's order.
+fn levels(base: &Base, estimates: &Estimates) -> Vec<Value> {
+    let (mut coefficient, mut shape) = (0, 0);
+    base.groups()
+        .iter()
+        .map(|group| {
+            let mut values = vec![0.0; group.problem.parameters().len()];
+            for place in &group.coefficients {
+                values[*place] = estimates.coefficients[coefficient].value;
+                coefficient += 1;
+            }
+            for place in &group.shapes {
+                values[*place] = estimates.shapes[shape].value;
+                shape += 1;
+            }
+            let law = group.problem.law();
+            let levels = law.levels(&values, None);
+            json!({
+                "members": group.members,
+                "levels": levels.iter().map(|l| json!({"current": l.current, "values": l.values})).collect::<Vec<_>>(),
+            })
+        })
+        .collect()
+}
+
+fn sizes(found: &Diagnosis) -> Value {
+    let s = found.named.assembly.campaign().sizes();
+    json!({
+        "displacement": s.displacement, "velocity": s.velocity, "force": s.force, "step": s.step,
+        "duration": s.duration, "total": s.total, "path": s.path, "energy": s.energy,
+        "current": s.current, "current_varies": s.current_varies,
+        "quantum": s.quantum,
+    })
+}

@@ -1,0 +1,89 @@
+//! The diagnosis: recordings in, JSON and force histories out.
+
+mod describe;
+
+use mre::assembly::{Base, Campaign};
+use mre::diagnose::{self, KINDS, Limits, Settings};
+use mre::error::{Error, Result};
+use numpy::PyArray1;
+use pyo3::prelude::*;
+
+use crate::device::{self, Levels};
+use crate::effects::law_of;
+use crate::error::to_python;
+use crate::recording::Recording;
+use crate::run::in_pool;
+
+type Forces<'py> = Vec<Bound<'py, PyArray1<f64>>>;
+
+/// Diagnose recordings: `(JSON, base force and final force of every recording)`.
+///
+/// `groups` are the places of recordings that share parameters of the model. Where `held` has levels, the
+/// model keeps them; where `given` has a force for every recording, that force is the base instead of the
+/// model. `base_effects` are `(id, law, shapes to start from)` of effects that belong to the base,
+/// `without` ids of effects that are ruled out.
+#[pyfunction]
+#[pyo3(signature = (recordings, model, groups, *, false_alarm, seed, held=None, given=None, base_effects=Vec::new(), without=Vec::new(), threads=None))]
+#[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)]
+pub(crate) fn diagnose_recordings<'py>(
+    py: Python<'py>,
+    recordings: Vec<Recording>,
+    model: &str,
+    groups: Vec<Vec<usize>>,
+    false_alarm: f64,
+    seed: u64,
+    held: Option<Levels>,
+    given: Option<Vec<Vec<f64>>>,
+    base_effects: Vec<(String, String, Vec<f64>)>,
+    without: Vec<String>,
+    threads: Option<i64>,
+) -> PyResult<(String, Forces<'py>, Forces<'py>)> {
+    let recordings: Vec<_> = recordings.into_iter().map(|r| r.inner).collect();
+    let held = held.map(|levels| device::device(model, levels)).transpose()?;
+    let own = base_effects
+        .into_iter()
+        .map(|(id, law, shapes)| Ok((law_of(&id, &law)?, shapes)))
+        .collect::<PyResult<Vec<_>>>()?;
+    let (result, _) = in_pool(py, threads, None, true, |_| -> Result<(String, Histories, Histories)> {
+        let campaign = Campaign::new(recordings.clone())?;
+        let base = match (held, given) {
+            (Some(device), _) => Base::Held(device),
+            (None, Some(force)) => Base::Given(force),
+            (None, None) => Base::fitted(&recordings, model, &groups)?,
+        };
+        let found = diagnose::run(&campaign, &base, &own, &Settings::new(false_alarm, seed, &without));
+        Ok((describe::describe(&found, &base, own.len()).to_string(), found.base_force, found.final_force))
+    })?;
+    let (text, base, last) = result.map_err(to_python)?;
+    let arrays = |forces: Histories| forces.into_iter().map(|force| PyArray1::from_vec(py, force)).collect();
+    Ok((text, arrays(base), arrays(last)))
+}
+
+type Histories = Vec<Vec<f64>>;
+
+/// Command signal of an excitation: `(time in s, displacement in mm, current in A or None)`.
+#[pyfunction]
+#[pyo3(signature = (kind, *, stroke, speed, highest, duration, rate, current=None))]
+#[allow(clippy::type_complexity, clippy::too_many_arguments)]
+pub(crate) fn excitation<'py>(
+    py: Python<'py>,
+    kind: &str,
+    stroke: f64,
+    speed: f64,
+    highest: f64,
+    duration: f64,
+    rate: f64,
+    current: Option<(f64, f64)>,
+) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, Option<Bound<'py, PyArray1<f64>>>)> {
+    let known = KINDS.iter().find(|k| k.id() == kind);
+    let limits = Limits { stroke, speed, highest, duration, rate, current };
+    let signal = known.and_then(|k| k.signal(&limits)).ok_or_else(|| {
+        let ids: Vec<&str> = KINDS.iter().map(|k| k.id()).collect();
+        to_python(Error::setting("excitation", format!("'{kind}'"), format!("one of {}", ids.join(", "))))
+    })?;
+    Ok((
+        PyArray1::from_vec(py, signal.time),
+        PyArray1::from_vec(py, signal.displacement),
+        signal.current.map(|current| PyArray1::from_vec(py, current)),
+    ))
+}

@@ -1,0 +1,84 @@
+//! Judgement of a model that was found: what is left beside it, and whether its names are to be trusted.
+
+use super::begin::Begun;
+use super::candidates::{Candidate, fit};
+use super::least_squares::{Data, Fitted, Point, refine};
+use super::missing::{Generic, Mismatch};
+use super::normal::Rows;
+use super::screen::Null;
+use super::search::{Named, rms};
+use super::verdict::{Evidence, Verdict};
+use crate::assembly::Assembly;
+
+/// A model with what speaks for and against it.
+pub(super) struct Judged<'a> {
+    /// The model.
+    pub(super) named: Named<'a>,
+    /// The base alone, fitted under the same noise.
+    pub(super) base: Fitted,
+    /// Tests of what is left.
+    pub(super) evidence: Evidence,
+    /// What they say.
+    pub(super) verdict: Verdict,
+}
+
+/// Judge a model; where names of several effects are not to be trusted, that of the first alone.
+pub(super) fn judge<'a>(
+    begun: &Begun<'a>,
+    (named, first): (Named<'a>, Option<Named<'a>>),
+    rows: &[Rows],
+    false_alarm: f64,
+) -> Judged<'a> {
+    let judged = alone(begun, named, rows, false_alarm);
+    match first {
+        Some(first) if judged.verdict == Verdict::Unexplained => {
+            let simpler = alone(begun, first, rows, false_alarm);
+            if simpler.verdict == Verdict::Unexplained { judged } else { simpler }
+        }
+        _ => judged,
+    }
+}
+
+fn alone<'a>(begun: &Begun<'a>, mut named: Named<'a>, rows: &[Rows], false_alarm: f64) -> Judged<'a> {
+    settle_reference(&mut named, rows);
+    let data = Data { noise: &named.noise, rows };
+    let base = refine(&begun.assembly, data, &begun.fitted.unit);
+    let mismatch = |assembly: &Assembly, fitted: &Fitted| {
+        let null = Null::new(assembly, data, &fitted.unit);
+        null.as_ref().map(Null::generic).as_ref().map_or(Mismatch::NONE, Generic::mismatch)
+    };
+    let first = mismatch(&begun.assembly, &base);
+    let rest = mismatch(&named.assembly, &named.fitted);
+    let explained = (base.left - named.fitted.left).max(0.0);
+    let change = rms_change(&named, data);
+    let evidence = Evidence::new(first, rest, explained, &named, change, false_alarm);
+    let verdict = evidence.verdict(named.assembly.effects().len() - begun.assembly.effects().len());
+    Judged { named, base, evidence, verdict }
+}
+
+/// Effects refer to the force of the base as it is in the joint model, as a simulation will have it.
+fn settle_reference(named: &mut Named, rows: &[Rows]) {
+    if named.assembly.effects().is_empty() {
+        return;
+    }
+    for _ in 0..3 {
+        let data = Data { noise: &named.noise, rows };
+        let force = named.assembly.base_force(&named.fitted.unit, &named.fitted.coefficients);
+        named.assembly = named.assembly.referring_to(force);
+        let Candidate { assembly, fitted } = fit(named.assembly.clone(), data, &named.fitted.unit);
+        (named.assembly, named.fitted) = (assembly, fitted);
+    }
+}
+
+/// Rms in N of what the best further candidate would change in the force.
+fn rms_change(named: &Named, data: Data) -> f64 {
+    let Some(next) = &named.next else { return 0.0 };
+    let force = |assembly: &Assembly, fitted: &Fitted| {
+        Point::at(assembly, data, fitted.unit.clone()).recordings.into_iter().map(|l| l.force).collect()
+    };
+    let (a, b): (Vec<Vec<f64>>, Vec<Vec<f64>>) =
+        (force(&named.assembly, &named.fitted), force(&next.assembly, &next.fitted));
+    let change: Vec<Vec<f64>> =
+        a.iter().zip(&b).map(|(a, b)| a.iter().zip(b).map(|(a, b)| a - b).collect()).collect();
+    rms(&change)
+}

@@ -1,0 +1,225 @@
+//! Excitations that a test machine can follow, within limits.
+
+use std::f64::consts::{PI, TAU};
+
+use rand_chacha::ChaCha8Rng;
+use rand_core::{Rng, SeedableRng};
+
+/// What the machine and the device may do.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Limits {
+    /// Largest displacement, mm.
+    pub stroke: f64,
+    /// Largest speed, mm/s.
+    pub speed: f64,
+    /// Highest frequency, Hz.
+    pub highest: f64,
+    /// Duration, s.
+    pub duration: f64,
+    /// Samples a second.
+    pub rate: f64,
+    /// Lowest and highest coil current, A, where it may be changed.
+    pub current: Option<(f64, f64)>,
+}
+
+/// Kinds of excitation, the plainest first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// A slow sine of full stroke.
+    SlowSine,
+    /// A sine at the highest frequency, as large as the speed allows.
+    FastSine,
+    /// Sines of rising and falling amplitude with rests.
+    Amplitudes,
+    /// A sine whose frequency rises, as large as stroke and speed allow.
+    Sweep,
+    /// A step away from the middle, held.
+    Hold,
+    /// Odd random-phase multisine: odd harmonics of a slow sine with random phases.
+    Multisine,
+    /// A sine under steps of the current, up and down.
+    CurrentSteps,
+}
+
+/// All kinds.
+pub const KINDS: [Kind; 7] = [
+    Kind::SlowSine,
+    Kind::FastSine,
+    Kind::Amplitudes,
+    Kind::Sweep,
+    Kind::Hold,
+    Kind::Multisine,
+    Kind::CurrentSteps,
+];
+
+/// Levels of [`Kind::Amplitudes`], as shares of the stroke.
+const LEVELS: [f64; 7] = [0.15, 0.35, 0.65, 1.0, 0.65, 0.35, 0.15];
+/// Levels of [`Kind::CurrentSteps`], as shares of the range.
+const CURRENTS: [f64; 6] = [0.0, 0.5, 1.0, 0.5, 0.0, 1.0];
+/// Time over which a motion starts and ends, s.
+const RAMP: f64 = 1.0;
+/// Cycles of the slowest sine.
+const SLOW_CYCLES: f64 = 4.0;
+/// Ratio of neighbouring frequencies of a multisine.
+const SPACING: f64 = 1.25;
+
+/// A command signal.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Signal {
+    /// s.
+    pub time: Vec<f64>,
+    /// mm.
+    pub displacement: Vec<f64>,
+    /// A, where it is commanded.
+    pub current: Option<Vec<f64>>,
+    /// Frequency of the drive, or the highest in it, Hz.
+    pub frequency: f64,
+    /// Largest displacement, mm.
+    pub amplitude: f64,
+}
+
+impl Kind {
+    /// As in `diagnosis.json`.
+    pub fn id(self) -> &'static str {
+        match self {
+            Self::SlowSine => "slow_sine",
+            Self::FastSine => "fast_sine",
+            Self::Amplitudes => "rising_and_falling_amplitudes",
+            Self::Sweep => "sweep",
+            Self::Hold => "hold",
+            Self::Multisine => "multisine",
+            Self::CurrentSteps => "current_steps",
+        }
+    }
+
+    /// The signal; `None` where the limits leave no room for it.
+    pub fn signal(self, limits: &Limits) -> Option<Signal> {
+        let Limits { stroke, speed, highest, duration, rate, current } = *limits;
+        let slow = (SLOW_CYCLES / duration).min(highest);
+        // The frequency at which full stroke needs half the speed.
+        let middle = (0.5 * speed / (TAU * stroke)).clamp(slow, highest);
+        let largest = |f: f64| stroke.min(speed / (TAU * f));
+        let count = (duration * rate).round() as usize;
+        let time: Vec<f64> = (0..count).map(|i| i as f64 / rate).collect();
+        let sine = |f: f64| time.iter().map(|t| largest(f) * (TAU * f * t).sin()).collect::<Vec<f64>>();
+        let (motion, frequency): (Vec<f64>, f64) = match self {
+            Self::SlowSine => (sine(slow), slow),
+            Self::FastSine => (sine(highest), highest),
+            Self::Amplitudes => (amplitudes(&time, duration, middle, stroke), middle),
+            Self::Sweep => (sweep(&time, duration, (slow, highest), largest), highest),
+            Self::Hold => (time.iter().map(|t| 0.8 * stroke * smooth((t - RAMP) / RAMP)).collect(), slow),
+            Self::Multisine => (multisine(&time, slow, highest), highest),
+            Self::CurrentSteps => (sine(middle), middle),
+        };
+        let current = match (self, current) {
+            (Self::CurrentSteps, None) => return None,
+            (Self::CurrentSteps, Some((low, high))) => Some(
+                time.iter()
+                    .map(|t| {
+                        let step = (t / duration * CURRENTS.len() as f64) as usize;
+                        low + (high - low) * CURRENTS[step.min(CURRENTS.len() - 1)]
+                    })
+                    .collect(),
+            ),
+            _ => None,
+        };
+        let ramped: Vec<f64> = motion
+            .iter()
+            .zip(&time)
+            .map(|(x, t)| {
+                let end = if self == Self::Hold { 1.0 } else { smooth((duration - t) / RAMP) };
+                x * smooth(t / RAMP) * end
+            })
+            .collect();
+        let displacement = within(ramped, limits);
+        let amplitude = displacement.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        Some(Signal { time, displacement, current, frequency, amplitude })
+    }
+}
+
+/// From zero to one with continuous slope.
+fn smooth(share: f64) -> f64 {
+    let s = share.clamp(0.0, 1.0);
+    s * s * (3.0 - 2.0 * s)
+}
+
+/// Scaled into stroke and speed.
+fn within(motion: Vec<f64>, limits: &Limits) -> Vec<f64> {
+    let far = motion.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let fast = motion.windows(2).fold(0.0_f64, |m, p| m.max((p[1] - p[0]).abs())) * limits.rate;
+    let share = (far / limits.stroke).max(fast / limits.speed).max(1.0);
+    motion.into_iter().map(|x| x / share).collect()
+}
+
+fn amplitudes(time: &[f64], duration: f64, frequency: f64, stroke: f64) -> Vec<f64> {
+    let each = duration / LEVELS.len() as f64;
+    // The last fifth of each level is a rest; the motion is whole cycles long.
+    let cycles = (0.8 * each * frequency).floor().max(1.0);
+    let moving = (cycles / frequency).min(0.95 * each);
+    time.iter()
+        .map(|t| {
+            let k = ((t / each) as usize).min(LEVELS.len() - 1);
+            let own = t - k as f64 * each;
+            let rise = 0.5 * (1.0 / frequency).min(0.25 * moving);
+            let ends = smooth(own / rise) * smooth((moving - own) / rise);
+            stroke * LEVELS[k] * ends * (TAU * frequency * own).sin()
+        })
+        .collect()
+}
+
+fn sweep(time: &[f64], duration: f64, (low, high): (f64, f64), largest: impl Fn(f64) -> f64) -> Vec<f64> {
+    let growth = (high / low).max(1.0 + 1e-9).ln() / duration;
+    time.iter()
+        .map(|t| {
+            let f = low * (growth * t).exp();
+            largest(f) * (TAU * (f - low) / growth).sin()
+        })
+        .collect()
+}
+
+/// Odd harmonics of half the slowest frequency, about evenly in the logarithm, each with the same speed.
+fn multisine(time: &[f64], slow: f64, highest: f64) -> Vec<f64> {
+    let mut stream = ChaCha8Rng::seed_from_u64(1);
+    let mut found = vec![0.0; time.len()];
+    let mut wanted = slow;
+    while wanted <= highest {
+        let harmonic = 2.0 * (wanted / slow).floor() + 1.0;
+        let f = 0.5 * slow * harmonic;
+        let phase = TAU * f64::from(stream.next_u32()) / f64::from(u32::MAX);
+        for (x, t) in found.iter_mut().zip(time) {
+            *x += (TAU * f * t + phase).sin() / f;
+        }
+        wanted = (wanted * SPACING).max(wanted + slow);
+    }
+    let far = found.iter().fold(f64::MIN_POSITIVE, |m: f64, x| m.max(x.abs()));
+    // More than any stroke: what is too large is scaled down.
+    found.into_iter().map(|x| 1e3 * PI * x / far).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_signal_keeps_its_limits_and_starts_at_rest() {
+        let limits = Limits {
+            stroke: 5.0,
+            speed: 40.0,
+            highest: 8.0,
+            duration: 20.0,
+            rate: 200.0,
+            current: Some((0.0, 3.0)),
+        };
+        for kind in KINDS {
+            let signal = kind.signal(&limits).expect("room");
+            assert_eq!(signal.time.len(), 4000);
+            assert_eq!(signal.displacement[0], 0.0, "{kind:?}");
+            let far = signal.displacement.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+            let fast =
+                signal.displacement.windows(2).fold(0.0_f64, |m, p| m.max((p[1] - p[0]).abs())) * 200.0;
+            assert!(far <= 5.0 + 1e-9 && fast <= 40.0 + 1e-9, "{kind:?} {far} {fast}");
+            assert!(far > 0.1, "{kind:?} {far}");
+        }
+        assert!(Kind::CurrentSteps.signal(&Limits { current: None, ..limits }).is_none());
+    }
+}

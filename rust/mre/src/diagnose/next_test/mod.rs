@@ -1,0 +1,156 @@
+//! What to test next: the excitation that, added to the recordings, best tells apart what is in doubt.
+//!
+//! The model named is taken as true and simulated on each excitation. A rival is refitted to the recordings
+//! and that simulation together: by how much worse it fits then is the expected evidence against it. Effects
+//! that the recordings hide are tested for on the same, as in the diagnosis itself.
+
+mod excitation;
+mod world;
+
+use super::absorbed::{hidden_among, ids_of};
+use super::candidates::Candidate;
+use super::distribution::normal_tail;
+use super::least_squares::{Data, refine};
+use super::noise::Noise;
+use super::normal::Rows;
+use super::screen::{Null, Score};
+use super::search::Named;
+use super::settings::Settings;
+use crate::assembly::Base;
+use crate::effect::Effect;
+use world::World;
+
+pub use excitation::{KINDS, Kind, Limits, Signal};
+
+/// Difference in the criterion from which two effects are told apart.
+const APART: f64 = 10.0;
+/// Passes until a simulation agrees with what effects see of it.
+const PASSES: usize = 4;
+/// A plainer excitation is preferred where another resolves less than this much more.
+const WORTH: f64 = 0.1;
+/// Highest frequency that is proposed, as a share of the sampling rate.
+const HIGHEST_SHARE: f64 = 0.05;
+/// Highest frequency that is proposed, Hz.
+const HIGHEST: f64 = 10.0;
+/// Durations that are proposed, s.
+const DURATIONS: std::ops::Range<f64> = 10.0..40.0;
+
+/// What an excitation is expected to tell.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Prospect {
+    /// The excitation.
+    pub kind: Kind,
+    /// Frequency of the drive, or the highest in it, Hz.
+    pub frequency: f64,
+    /// Largest displacement, mm.
+    pub amplitude: f64,
+    /// Chance that each effect in doubt is told apart or detected.
+    pub chances: Vec<(&'static str, f64)>,
+}
+
+impl Prospect {
+    fn worth(&self) -> f64 {
+        self.chances.iter().map(|(_, chance)| chance).sum()
+    }
+}
+
+/// The proposed excitation among all that were tried.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NextTest {
+    /// Limits of the excitations.
+    pub limits: Limits,
+    /// All of them, the proposed one first.
+    pub prospects: Vec<Prospect>,
+}
+
+/// What is in doubt.
+pub(super) struct Doubt<'a> {
+    /// Models that fit as well as the one named, by the effect that they put in place of one of its own.
+    pub(super) rivals: Vec<(&'static str, Candidate<'a>)>,
+    /// Ids of effects that the recordings would hide.
+    pub(super) hidden: Vec<&'static str>,
+}
+
+/// The best of the excitations within limits that follow from the recordings.
+pub(super) fn propose(
+    named: &Named,
+    base: &Base,
+    doubt: &Doubt,
+    rows: &[Rows],
+    settings: &Settings,
+) -> Option<NextTest> {
+    if doubt.rivals.is_empty() && doubt.hidden.is_empty() {
+        return None;
+    }
+    let sizes = named.assembly.campaign().sizes();
+    let rate = 1.0 / sizes.step;
+    let limits = Limits {
+        stroke: sizes.displacement,
+        speed: sizes.velocity,
+        highest: (HIGHEST_SHARE * rate).min(HIGHEST),
+        duration: sizes.duration.clamp(DURATIONS.start, DURATIONS.end),
+        rate,
+        current: sizes.current.filter(|(low, high)| high > low),
+    };
+    let mut prospects: Vec<Prospect> = KINDS
+        .iter()
+        .filter_map(|kind| {
+            let signal = kind.signal(&limits)?;
+            let chances = chances(named, base, doubt, rows, settings, &signal)?;
+            let (frequency, amplitude) = (signal.frequency, signal.amplitude);
+            Some(Prospect { kind: *kind, frequency, amplitude, chances })
+        })
+        .collect();
+    // The plainest of those that resolve about as much as the best.
+    let most = prospects.iter().map(Prospect::worth).fold(0.0, f64::max);
+    let best = prospects.iter().position(|p| p.worth() >= most - WORTH)?;
+    let chosen = prospects.remove(best);
+    prospects.sort_by(|a, b| b.worth().total_cmp(&a.worth()));
+    prospects.insert(0, chosen);
+    Some(NextTest { limits, prospects })
+}
+
+/// Chance for each effect in doubt that an excitation tells it.
+fn chances(
+    named: &Named,
+    base: &Base,
+    doubt: &Doubt,
+    rows: &[Rows],
+    settings: &Settings,
+    signal: &Signal,
+) -> Option<Vec<(&'static str, f64)>> {
+    let silent = World::new(named.assembly.campaign(), base, signal, None)?;
+    let force = silent.simulated(&named.assembly, &named.fitted, PASSES)?;
+    let world = World::new(named.assembly.campaign(), base, signal, Some(force))?;
+    let noise: Noise = named.noise.with_another_like(0);
+    let mut rows = rows.to_vec();
+    rows.push(vec![0..signal.time.len()]);
+    let data = Data { noise: &noise, rows: &rows };
+    let (own, start) = world.assembly(&named.assembly, &named.fitted);
+    let fitted = refine(&own, data, &start);
+    let price = (fitted.rows as f64).ln();
+    let criterion = |left: f64, parameters: usize| left + price * parameters as f64;
+    let truth = criterion(fitted.left, fitted.coefficients.len() + fitted.unit.len());
+    let mut found: Vec<(&'static str, f64)> = doubt
+        .rivals
+        .iter()
+        .map(|(id, rival)| {
+            let (assembly, start) = world.assembly(&rival.assembly, &rival.fitted);
+            let other = refine(&assembly, data, &start);
+            let against = criterion(other.left, other.coefficients.len() + other.unit.len()) - truth;
+            // The evidence varies with the noise like a normal variable of this variance.
+            let spread = 2.0 * against.max(1.0).sqrt();
+            (*id, 1.0 - normal_tail((against - APART) / spread))
+        })
+        .collect();
+    let null = Null::new(&own, data, &fitted.unit)?;
+    let laws: Vec<&'static dyn Effect> =
+        settings.laws.iter().copied().filter(|e| doubt.hidden.contains(&e.about().effect)).collect();
+    let scores: Vec<Score> = laws.iter().filter_map(|law| null.score(*law, settings.seed)).collect();
+    let count = ids_of(&named.scores).len();
+    let still = hidden_among(&scores, count, world.campaign(), settings.false_alarm);
+    found.extend(
+        doubt.hidden.iter().map(|id| (*id, if still.iter().any(|h| h.effect == *id) { 0.0 } else { 1.0 })),
+    );
+    Some(found)
+}

@@ -1,0 +1,80 @@
+//! Candidates and looks shared among threads: the same bits as on one.
+#![allow(missing_docs, clippy::unwrap_used)]
+
+mod common;
+
+use std::sync::atomic::AtomicBool;
+
+use common::{Trial, fitness, problem, with_threads};
+use mre::fitness::{Problem, Weights};
+use mre::swarm::{
+    Budget, Crowd, FishSettings, FishSwarm, History, Neighbourhood, Schedule, Search, Stream, Swarm, run,
+};
+
+fn example(model: &str) -> Problem {
+    let trial = Trial { samples: 300, stroke: 4.0, truth: [1.1, 13.7, 14.6, 0.3, 1.0], noise: 1e-2, seed: 1 };
+    problem(model, &[trial.recording()], &[], &Weights::Samples)
+}
+
+/// Rows of the unit box, a tenth of the coordinates on a wall.
+fn unit_rows(count: usize) -> Vec<f64> {
+    let mut stream = Stream::new(3, 0);
+    (0..count).map(|_| (1.1 * stream.uniform() - 0.05).clamp(0.0, 1.0)).collect()
+}
+
+#[test]
+fn points_of_the_box_cost_what_their_parameters_cost() {
+    for model in ["sinh", "bouc_wen", "kelvin_voigt"] {
+        let problem = example(model);
+        let d = problem.bounds().len();
+        let alone = (1..10_000).take_while(|count| problem.on_one_thread(*count)).last().unwrap();
+        for count in [0, 1, 17, alone, alone + 1, 2 * alone + 63] {
+            let unit = unit_rows(count * d);
+            let mut rows = vec![0.0; unit.len()];
+            problem.bounds().to_physical(&unit, &mut rows);
+            let one_by_one: Vec<f64> = rows.chunks(d).flat_map(|row| fitness(&problem, row)).collect();
+            for threads in [1, 2, 3] {
+                let mut costs = vec![0.0; count];
+                with_threads(threads, || {
+                    problem.fitness_in_box(&unit, &mut costs, &AtomicBool::new(false));
+                });
+                assert_eq!(costs, one_by_one, "{model}, {count} candidates, {threads} threads");
+            }
+        }
+    }
+}
+
+#[test]
+fn fish_swim_the_same_on_any_number_of_threads() {
+    let problem = example("sinh");
+    let swim = |search, threads: usize| -> (Vec<f64>, History) {
+        let settings = FishSettings {
+            fish: 50,
+            iterations: 20,
+            try_number: 50,
+            delta: 0.6,
+            visual: 0.5,
+            step: 0.25,
+            schedule: Schedule::FromStart { visual_min: 0.002, step_min: 0.0003, p: 5 },
+            neighbourhood: Neighbourhood::Swarm,
+            crowd: Crowd::Literal,
+            search,
+        };
+        let mut swarm = FishSwarm::new(settings, 5, 1, None).unwrap();
+        let never = AtomicBool::new(false);
+        let mut evaluate = |unit: &[f64], costs: &mut [f64]| problem.fitness_in_box(unit, costs, &never);
+        let mut all = || run(&mut swarm, &mut evaluate, 5, &Budget::default(), &mut |_| true);
+        if threads == 0 {
+            all(); // outside a pool
+        } else {
+            with_threads(threads, all);
+        }
+        (swarm.bulletin().position.clone(), swarm.history().clone())
+    };
+    for search in [Search::Best, Search::Step] {
+        let one = swim(search, 1);
+        for threads in [0, 2, 3, 8] {
+            assert_eq!(swim(search, threads), one, "{search:?}, {threads} threads");
+        }
+    }
+}
