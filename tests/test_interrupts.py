@@ -84,8 +84,8 @@ def test_interrupt_of_the_command(tmp_path: Path) -> None:
     assert (job.returncode, error) == (130, "")
     assert "stopped by interrupted" in shown
     # Whole files of what was found so far; the current that was not begun has neither level nor figure.
-    files = {"model.json", "identification.json", "report.html", "settings.toml", "fit_0A.png"}
-    assert everything_in(out) == files
+    written = {"model.json", "identification.json", "report.html", "settings.toml", "fit_0A.png"}
+    assert everything_in(out) == written
     content = json.loads((out / "model.json").read_text(encoding="utf-8"))
     assert content["interrupted"] is True
     assert [level["current_A"] for level in content["levels"]] == [0.0]
