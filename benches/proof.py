@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "proof.md"
-BLOCK = re.compile(r"<!-- (\S+\.md) -->\n.*?<!-- end -->", flags=re.DOTALL)
+BLOCK = re.compile(r"<!-- (\S+\.(?:md|txt)) -->\n.*?<!-- end -->", flags=re.DOTALL)
 
 
 def filled(text: str, folder: Path) -> str:

@@ -2,7 +2,7 @@
 
     python benches/real_proof [--out docs/real] [CASE ...]
 
-Writes one page a case with a figure, and table.md with one line a case. Nothing is simulated; the last three
+Writes one page a case with a figure, and table.txt with one line a case. Nothing is simulated; the last three
 cases alter the force channel of a real recording. The recordings are read from the folder MRE_DATA.
 """
 
@@ -17,7 +17,7 @@ from page import answered, write
 from recordings import DATA
 
 OUT = Path(__file__).resolve().parents[2] / "docs" / "real"
-TABLE = "table.md"
+TABLE = "table.txt"
 HEAD = (
     "| case | answered | named | verdict | held out before / N | after / N |",
     "|---|---|---|---|---:|---:|",

@@ -10,6 +10,9 @@ const TRUSTED: [f64; 2] = [0.1, 0.01];
 /// A rest above this part of that share is more than an inexact form.
 const FORM: f64 = 0.5;
 
+/// Names are doubted only where the rest is beyond chance by far: a small one may be the noise's.
+const BEYOND_CHANCE: f64 = 1e-5;
+
 /// The verdicts of `diagnosis.json`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
@@ -80,7 +83,7 @@ impl Evidence {
         match (effects, self.rest) {
             (0, false) => Verdict::Adequate,
             (0, true) => Verdict::Unexplained,
-            (_, true) if self.share > trusted => Verdict::Unexplained,
+            (_, true) if self.share > trusted && self.p_rest < BEYOND_CHANCE => Verdict::Unexplained,
             (_, true) if self.share > FORM * trusted => Verdict::PartlyExplained,
             _ => Verdict::MissingPhysics,
         }
