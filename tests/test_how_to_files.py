@@ -1,4 +1,4 @@
-"""What docs/howto/files.md says of settings and endings; its blocks are run by test_docs."""
+"""What docs/how-to/files.md says of settings and endings; its blocks are run by test_docs."""
 
 import re
 import tomllib
@@ -7,7 +7,7 @@ from pathlib import Path
 from mre_core.cli.settings_schema import problem_in
 from mre_core.files.readers import READERS
 
-TEXT = (Path(__file__).resolve().parents[1] / "docs" / "howto" / "files.md").read_text(encoding="utf-8")
+TEXT = (Path(__file__).resolve().parents[1] / "docs" / "how-to" / "files.md").read_text(encoding="utf-8")
 
 
 def blocks(language: str) -> list[str]:

@@ -129,7 +129,7 @@ class Later(Diagnosis):
     def to_dict(self) -> dict[str, Any]:
         speed = np.linspace(0, 5, 40)
         return super().to_dict() | {
-            "unknown": {
+            "suspicion": {
                 "depends_on": "velocity",
                 "what": HOSTILE,
                 "curve": {"velocity_mm_s": speed.tolist(), "force_N": (speed**2).tolist(), "unit": "N"},
@@ -180,12 +180,30 @@ def test_the_next_test() -> None:
     assert "The next test it separates them excitation sine frequency hz 4 separates a, b" in page.words
 
 
+def test_what_is_unexplained() -> None:
+    unknown = {
+        "statement": "A force of about 0.45 N is unexplained.",
+        "nearest": ["mullins_softening"],
+        "depends_on": [{"on": "state", "share": 0.34, "size": None}],
+        "odd": 0.02,
+        "map": {"x_mm": [-1.0, 0.0, 1.0], "v_mm_s": [-5.0, 5.0], "force_N": [[None, 1, 2], [3, None, None]]},
+    }
+    page = Page(report_diagnosis(a_diagnosis(verdict="unexplained", effects=(), unknown=unknown)))
+    check_alone(page)
+    assert "What is unexplained A force of about 0.45 N is unexplained." in page.words
+    assert "nearest mullins_softening" in page.words
+    assert page.tags.count("polyline") == 1  # one sample makes no line
+    assert "-5 mm/s" in page.words
+    later = {"statement": "Something else.", "kind": 3}
+    assert "Something else." in Page(report_diagnosis(a_diagnosis(unknown=later))).words
+
+
 def test_fields_of_later_versions_are_shown() -> None:
     found = a_diagnosis(verdict="unexplained", effects=())
     later = Later(**{name: getattr(found, name) for name in found.__dataclass_fields__})
     page = Page(report_diagnosis(later))
     check_alone(page)
-    assert "Unknown" in page.words
+    assert "Suspicion" in page.words
     assert "depends on velocity" in page.words
     assert HOSTILE in page.words
     assert "40 values from 0 to 5" in page.words

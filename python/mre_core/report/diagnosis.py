@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING, Any
 
 from ..output import finite
-from .chart import curves_in
+from .chart import Chart, chart, curves_in
 from .page import render
 from .series import Series, pack, rms
 
@@ -12,7 +12,16 @@ if TYPE_CHECKING:
 
 _SHOWN = {
     *("schema", "version", "base", "fixed", "verdict", "statement", "effects", "where", "fit", "absorbed"),
-    *("absorbed_detail", "next_test", "p_values", "recordings", "false_alarm", "seed", "interrupted"),
+    *(
+        "absorbed_detail",
+        "unknown",
+        "next_test",
+        "p_values",
+        "recordings",
+        "false_alarm",
+        "seed",
+        "interrupted",
+    ),
 }
 """Fields of ``diagnosis.json`` that have a place of their own on the page."""
 
@@ -52,12 +61,26 @@ def report_diagnosis(found: "Diagnosis") -> str:
         d=content,
         where=content.get("where", []),
         strongest=max((float(place.get("strength", 0)) for place in found.where), default=1.0) or 1.0,
+        unexplained=_unexplained(content.get("unknown")),
         further=further,
         charts={key: curves_in(value) for key, value in further.items()},
         fits=[(s.name, *(rms(s.measured - force) for force in s.models.values())) for s in series],
         data=pack(series) | {"where": content.get("where", [])},
         result=content,
         result_name="diagnosis.json",
+    )
+
+
+def _unexplained(unknown: Any) -> Chart | None:
+    """Draw the map of what is unexplained: a line over the displacement for each velocity."""
+    field = (unknown or {}).get("map")
+    if not field:
+        return None
+    lines = zip(field["v_mm_s"], field["force_N"], strict=True)
+    return chart(
+        {f"{v:.3g} mm/s": (field["x_mm"], force) for v, force in lines},
+        "displacement / mm",
+        "unexplained force / N",
     )
 
 

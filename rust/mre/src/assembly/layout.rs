@@ -129,6 +129,17 @@ impl<'a> Assembly<'a> {
         self.base.groups().iter().flat_map(of_group).chain(self.effects.iter().flat_map(of_effect)).collect()
     }
 
+    /// For every coefficient the inverse of the variance that it is known to have.
+    pub(crate) fn known_of_coefficients(&self) -> Vec<f64> {
+        let mut found = vec![0.0; self.base_coefficients()];
+        for effect in &self.effects {
+            let copies = if effect.of_the_measurement() { self.campaign.recordings().len() } else { 1 };
+            let known = effect.known_of_coefficients(self.campaign.sizes());
+            found.extend(vec![known; copies * effect.coefficients().len()]);
+        }
+        found
+    }
+
     /// For every coefficient, true where it belongs to the device and not to the measurement.
     pub fn device_coefficients(&self) -> Vec<bool> {
         let mut found = vec![true; self.base_coefficients()];

@@ -152,6 +152,9 @@ impl Point {
         let mut whitened = Vec::new();
         for pass in 0..passes {
             (whitened, normal) = gather(assembly, data, &raw, &masks, values.len());
+            for (i, known) in assembly.known_of_coefficients().into_iter().enumerate() {
+                normal.gram[(i, i)] += known;
+            }
             let lower: Vec<f64> = coefficients.iter().map(|p| p.smallest).collect();
             let upper: Vec<f64> = coefficients.iter().map(|p| p.largest).collect();
             values = bounded::minimise(&normal.gram, &normal.right, &lower, &upper);

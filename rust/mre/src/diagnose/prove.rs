@@ -131,7 +131,10 @@ pub(super) fn prove(assembly: &Assembly, noise: &Noise, splits: &[Split], fitted
                     let count = rows.iter().map(ExactSizeIterator::len).sum();
                     (all.map(|e| e * e).sum::<f64>(), count)
                 };
-                (sum(&split.train[r]), sum(&split.held_out[r]))
+                // The first samples of a recording are what the noise's memory starts from: no fit counts them.
+                let lost = noise.lost(r);
+                let fitted = split.train[r].iter().map(|t| t.start.max(lost).min(t.end)..t.end).collect();
+                (sum(&fitted), sum(&split.held_out[r]))
             });
             errors.unzip()
         })

@@ -79,6 +79,9 @@ impl<'a> Null<'a> {
                 }
             }
         }
+        for (i, known) in assembly.known_of_coefficients().into_iter().enumerate() {
+            gram[(i, i)] += known;
+        }
         let scale: Vec<f64> =
             (0..count).map(|i| if gram[(i, i)] > 0.0 { 1.0 / gram[(i, i)].sqrt() } else { 0.0 }).collect();
         let scaled = DMatrix::from_fn(count, count, |i, j| {

@@ -56,6 +56,11 @@ impl Effect for InitialState {
         times.iter().map(|d| scene.time.iter().map(|t| (-(t - start) / d).exp()).collect()).collect()
     }
 
+    fn known_of_coefficients(&self, sizes: &Sizes) -> f64 {
+        // No remainder is larger than the force.
+        sizes.force.powi(-2)
+    }
+
     fn of_the_measurement(&self) -> bool {
         true
     }

@@ -141,6 +141,13 @@ pub trait Effect: Send + Sync {
         false
     }
 
+    /// Inverse of the variance that the coefficients are known to have, where their columns may have left no trace
+    /// in the samples that count; zero: nothing is known.
+    fn known_of_coefficients(&self, sizes: &Sizes) -> f64 {
+        let _ = sizes;
+        0.0
+    }
+
     /// True where the effect is so slow that slow noise looks like it: it also has to exceed what the noise's
     /// spectrum extends to.
     fn slow(&self) -> bool {
