@@ -20,8 +20,8 @@ def verdict(kind: str, base: str, effects: Sequence[str], fit: Mapping[str, Any]
     """
     model = "The given simulation" if base == "simulated" else f"The base model {base}"
     named = listed(effects)
-    falls, noise = _change(fit), f"{fit['noise_rms']:.3g} N"
-    error = f"{fit['held_out_rms_before']:.3g} N"
+    falls, noise = _change(fit), _force(fit["noise_rms"])
+    error = _force(fit["held_out_rms_before"])
     return {
         "adequate": f"{model} explains the recordings down to their noise (rms {noise}).",
         "missing_physics": f"{model} leaves out {named}: with it {falls}, where the noise has {noise}.",
@@ -41,7 +41,11 @@ def effect(plain: str, found: Mapping[str, Any], shows: str | None) -> str:
 def _change(fit: Mapping[str, Any]) -> str:
     before, after = fit["held_out_rms_before"], fit["held_out_rms_after"]
     verb = "falls" if after < before else "rises"
-    return f"the rms error on held-out data {verb} from {before:.3g} N to {after:.3g} N"
+    return f"the rms error on held-out data {verb} from {_force(before)} to {_force(after)}"
+
+
+def _force(value: float) -> str:
+    return f"{value:.3g} N" if abs(value) < 1e4 else f"{value / 1000:.3g} kN"
 
 
 def place(found: Mapping[str, Any]) -> str:
@@ -122,7 +126,7 @@ def unknown(found: Mapping[str, Any], nearest: Sequence[str]) -> str:
         f" The nearest effects of the catalogue, {listed(nearest)}, leave too much of it." if nearest else ""
     )
     return (
-        f"A force of about {found['rms_N']:.3g} N rms is unexplained: {on}; over displacement and velocity"
+        f"A force of about {_force(found['rms_N'])} rms is unexplained: {on}; over displacement and velocity"
         f" it is {shape} and {energy}.{told}"
     )
 

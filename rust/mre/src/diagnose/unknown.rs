@@ -14,8 +14,8 @@ const UP: usize = 4;
 const MOST: usize = 4;
 /// A thing is named if it carries this share of what the strongest does.
 const WORTH_NAMING: f64 = 0.5;
-/// Keeps stretches that the recordings hardly visit near zero, in squared standard deviations.
-const RIDGE: f64 = 1.0;
+/// Keeps stretches that the recordings hardly visit near zero: a share of what a typical one weighs.
+const RIDGE: f64 = 1e-2;
 
 /// What the mismatch depends on.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -106,9 +106,8 @@ fn surface(null: &Null) -> (Map, f64, f64, f64) {
         columns
     });
     let typical = gram.diagonal().iter().sum::<f64>() / count as f64;
-    let ridged = DMatrix::from_fn(count, count, |i, j| {
-        gram[(i, j)] + if i == j { RIDGE + 1e-9 * typical } else { 0.0 }
-    });
+    let ridged =
+        DMatrix::from_fn(count, count, |i, j| gram[(i, j)] + if i == j { RIDGE * typical } else { 0.0 });
     let values = ridged.cholesky().map_or_else(|| DVector::zeros(count), |factor| factor.solve(&right));
     let (mut even, mut total) = (0.0, 0.0);
     for k in 0..count {

@@ -197,6 +197,7 @@ fn multisine(time: &[f64], slow: f64, highest: f64) -> Vec<f64> {
 }
 
 #[cfg(test)]
+#[allow(clippy::expect_used)]
 mod tests {
     use super::*;
 

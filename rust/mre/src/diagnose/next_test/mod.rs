@@ -124,7 +124,7 @@ fn chances(
     let world = World::new(named.assembly.campaign(), base, signal, Some(force))?;
     let noise: Noise = named.noise.with_another_like(0);
     let mut rows = rows.to_vec();
-    rows.push(vec![0..signal.time.len()]);
+    rows.extend(world.campaign().recordings().last().map(|r| vec![r.scored()]));
     let data = Data { noise: &noise, rows: &rows };
     let (own, start) = world.assembly(&named.assembly, &named.fitted);
     let fitted = refine(&own, data, &start);
