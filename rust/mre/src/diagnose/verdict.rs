@@ -6,9 +6,9 @@ use super::search::Named;
 
 /// Shares of the rest above which names are not trusted, for one effect and for several: effects that are not
 /// there, bent towards one that is in no catalogue, leave more. Several bend further, and so have to fit better.
-const TRUSTED: [f64; 2] = [0.1, 0.01];
+const TRUSTED: [f64; 2] = [0.3, 0.01];
 /// A rest above this part of that share is more than an inexact form.
-const FORM: f64 = 0.5;
+const FORM: f64 = 0.25;
 
 /// Names are doubted only where the rest is beyond chance by far: a small one may be the noise's.
 const BEYOND_CHANCE: f64 = 1e-5;
