@@ -108,7 +108,8 @@ fn simulate<const FUSED: bool, const N: usize>(lanes: &[Lane]) -> Vec<Vec<f64>> 
                 for l in 0..N {
                     let dv = (v1[l] - v0[l]) / count[l];
                     start[l] = v0[l] + dv * done;
-                    end[l] = start[l] + dv;
+                    // To the bit as in one step, where other lanes of the block need more.
+                    end[l] = if done + 1.0 < count[l] { start[l] + dv } else { v1[l] };
                     step[l] = if done < count[l] { h[l] / count[l] } else { 0.0 };
                 }
                 w = rk4::<FUSED, Any, N>(&w, (&start, &end), &step, &shapes);
