@@ -73,7 +73,8 @@ def numbers(content: Any, path: str = "") -> Iterator[tuple[str, Any]]:
 
 def test_files(quick: Quick) -> None:
     figures = {f"{stem}.{form}" for stem in STEMS for form in ("svg", "png")}
-    assert everything_in(quick.folder) == figures | {"study.json", "times.json", "study.html"}
+    written = {"settings.toml", "study.json", "times.json", "study.html"}
+    assert everything_in(quick.folder) == figures | written
     for stem in STEMS:
         assert (quick.folder / f"{stem}.png").read_bytes().startswith(b"\x89PNG\r\n\x1a\n")
         assert "</svg>" in (quick.folder / f"{stem}.svg").read_text(encoding="utf-8")
