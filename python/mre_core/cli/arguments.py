@@ -190,6 +190,22 @@ def read_interval(text: str) -> tuple[float | None, float | None]:
         raise InputError(f"--cut {text}", wanted="--cut START:STOP in seconds, either may be empty") from None
 
 
+def read_parts(text: str | None) -> tuple[str, ...]:
+    """Read names of parts of a recording, with commas between them."""
+    return () if text is None else tuple(part.strip() for part in text.split(","))
+
+
+def trimmed(recordings: list[Recording], cut: str | None, exclude: str | None) -> list[Recording]:
+    """Apply ``--cut`` and ``--exclude``."""
+    if cut is not None:
+        start, stop = read_interval(cut)
+        recordings = [recording.cut(start, stop) for recording in recordings]
+    if exclude is not None:
+        parts = read_parts(exclude)
+        recordings = [recording.exclude(*parts) for recording in recordings]
+    return recordings
+
+
 def read_seeds(text: str) -> list[int]:
     """Read ``FIRST:END`` as whole numbers, the end left out."""
     first, colon, end = text.partition(":")

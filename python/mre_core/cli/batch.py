@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from .arguments import WHOLE, common_options, pairs, read_bounds, read_interval, read_seeds
+from .arguments import WHOLE, common_options, pairs, read_bounds, read_interval, read_parts, read_seeds
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -93,7 +93,7 @@ def batch(
             name_pattern=name_pattern,
             read=pairs("--read", reading, ReadOptions._fields),
             cut=None if cut is None else read_interval(cut),
-            exclude=() if exclude is None else tuple(part.strip() for part in exclude.split(",")),
+            exclude=read_parts(exclude),
             bounds=read_bounds(bounds) or None,
             on_progress=on_progress,
             **options,

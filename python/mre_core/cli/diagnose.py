@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from .arguments import WHOLE, common_options, load_all, read_interval, report_options
+from .arguments import WHOLE, common_options, load_all, report_options, trimmed
 
 if TYPE_CHECKING:
     from ..diagnosis import Diagnosis, History
@@ -69,12 +69,7 @@ def diagnose(
     from .show import print_diagnosis
 
     loaded = load_all(recordings, mapping, conditions, name_pattern, reading)
-    if cut is not None:
-        start, stop = read_interval(cut)
-        loaded = [recording.cut(start, stop) for recording in loaded]
-    if exclude is not None:
-        parts = [part.strip() for part in exclude.split(",")]
-        loaded = [recording.exclude(*parts) for recording in loaded]
+    loaded = trimmed(loaded, cut, exclude)
     place = staged(out) if out is not None else nullcontext()
     with place as stage:
         with spinner("diagnosing", quiet=quiet):

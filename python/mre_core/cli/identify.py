@@ -10,8 +10,8 @@ from .arguments import (
     common_options,
     load_all,
     read_bounds,
-    read_interval,
     report_options,
+    trimmed,
     unique_names,
 )
 
@@ -90,12 +90,7 @@ def identify(
     from .show import print_identification
 
     loaded = load_all(recordings, mapping, conditions, name_pattern, reading)
-    if cut is not None:
-        start, stop = read_interval(cut)
-        loaded = [recording.cut(start, stop) for recording in loaded]
-    if exclude is not None:
-        parts = [part.strip() for part in exclude.split(",")]
-        loaded = [recording.exclude(*parts) for recording in loaded]
+    loaded = trimmed(loaded, cut, exclude)
     base = Model.load(model) if model.endswith(".json") else model
     sizes = {"n_particles" if optimizer == "pso" else "n_fish": fish, "max_iterations": iterations}
     options |= {name: size for name, size in sizes.items() if size is not None}

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..errors import InputError
-from .arguments import common_options, load_all, read_bounds, read_interval
+from .arguments import common_options, load_all, read_bounds, read_interval, read_parts
 
 if TYPE_CHECKING:
     from .._core import Recording
@@ -85,7 +85,7 @@ def laws(
     from .settings import write_settings
 
     interval = None if cut is None else read_interval(cut)
-    parts = () if exclude is None else tuple(part.strip() for part in exclude.split(","))
+    parts = read_parts(exclude)
     left_out: list[Recording] = []
 
     def read() -> "Iterator[Recording]":

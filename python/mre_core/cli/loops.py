@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from .arguments import common_options, load_all, read_interval
+from .arguments import common_options, load_all, trimmed
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -63,12 +63,7 @@ def loops(
 
     given = None if model is None else Model.load(model)
     loaded = load_all(recordings, mapping, conditions, name_pattern, reading)
-    if cut is not None:
-        start, stop = read_interval(cut)
-        loaded = [recording.cut(start, stop) for recording in loaded]
-    if exclude is not None:
-        parts = [part.strip() for part in exclude.split(",")]
-        loaded = [recording.exclude(*parts) for recording in loaded]
+    loaded = trimmed(loaded, cut, exclude)
     found = run(loaded, given, convention=convention)
     content = {
         "schema": "mre-core/loops/1",

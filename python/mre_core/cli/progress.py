@@ -5,6 +5,10 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rich.progress import ProgressColumn
 
 OnLevel = Callable[[int, int, float | None], None]
 OnProgress = Callable[[int, int, float], None]
@@ -59,16 +63,11 @@ def counter(what: str, *, quiet: bool) -> Iterator[OnItems]:
         To be called with (done, failed, count).
     """
     from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+    from rich.progress import Progress
 
     err = Console(stderr=True)
     bar = Progress(
-        TextColumn("{task.description}"),
-        BarColumn(),
-        TextColumn("{task.fields[note]}"),
-        TimeElapsedColumn(),
-        TextColumn("left:"),
-        TimeRemainingColumn(),
+        *_columns(),
         console=err,
         transient=True,
         disable=quiet or not err.is_terminal,
@@ -122,18 +121,27 @@ def counted(what: str, *, quiet: bool) -> Iterator[Callable[[int, int], None]]:
         yield lambda done, count: on_items(done, 0, count)
 
 
-@contextmanager
-def _bar(iterations: int) -> Iterator[tuple[OnLevel, OnProgress]]:
-    from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+def _columns() -> "tuple[ProgressColumn, ...]":
+    """Make the columns of a bar: what is done, how far it is, a note, and the times."""
+    from rich.progress import BarColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
-    bar = Progress(
+    return (
         TextColumn("{task.description}"),
         BarColumn(),
         TextColumn("{task.fields[note]}"),
         TimeElapsedColumn(),
         TextColumn("left:"),
         TimeRemainingColumn(),
+    )
+
+
+@contextmanager
+def _bar(iterations: int) -> Iterator[tuple[OnLevel, OnProgress]]:
+    from rich.console import Console
+    from rich.progress import Progress
+
+    bar = Progress(
+        *_columns(),
         console=Console(stderr=True),
         transient=True,
     )

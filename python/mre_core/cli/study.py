@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from .arguments import WHOLE, common_options, load_all
+from .arguments import WHOLE, common_options, load_all, trimmed
 
 if TYPE_CHECKING:
     from ..output import Stage
@@ -66,9 +66,7 @@ def study(
     if not recordings and (given := [name for name, value in of_recordings.items() if value]):
         raise InputError(f"{given[0]} is given without recordings", wanted="--recordings FILE... beside it")
     loaded = load_all(recordings, mapping, conditions, name_pattern, reading) if recordings else []
-    if exclude is not None:
-        parts = [part.strip() for part in exclude.split(",")]
-        loaded = [recording.exclude(*parts) for recording in loaded]
+    loaded = trimmed(loaded, None, exclude)
     with staged(out) as stage:
         with stages() as on_progress:
             effort = QUICK if quick else FULL

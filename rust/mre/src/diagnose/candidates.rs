@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::begin::starts;
 use super::drift;
 use super::held::Held;
-use super::least_squares::{Data, Fitted, Point, refine, refine_at_most};
+use super::least_squares::{Data, Fitted, forces, refine, refine_at_most};
 use super::noise::Noise;
 use super::screen::{Null, Score};
 use super::settings::Settings;
@@ -61,14 +61,12 @@ pub(super) fn steps(assembly: &Assembly) -> Vec<f64> {
 
 /// Residuals in N of a fit.
 pub(super) fn residuals(assembly: &Assembly, data: Data, fitted: &Fitted) -> Vec<Vec<f64>> {
-    let point = Point::at(assembly, data, fitted.unit.clone());
-    let recordings = assembly.campaign().recordings();
+    let recordings = assembly.campaign().recordings().iter();
     recordings
-        .iter()
-        .zip(point.recordings)
-        .map(|(r, local)| {
+        .zip(forces(assembly, data, fitted))
+        .map(|(r, force)| {
             let measured = r.force().unwrap_or_default();
-            measured.iter().zip(local.force).map(|(f, model)| f - model).collect()
+            measured.iter().zip(force).map(|(f, model)| f - model).collect()
         })
         .collect()
 }

@@ -5,6 +5,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::bounded;
 use super::screen::{Null, Score};
+use super::step::{Ridge, step};
 use crate::assembly::Assembly;
 
 /// Step of the difference quotients, in the unit box.
@@ -13,8 +14,8 @@ const STEP: f64 = 1e-4;
 const MOST: usize = 8;
 /// The search ends when a step promises less than this (in squared standard deviations).
 const LEAST_GAIN: f64 = 0.02;
-/// Longest step, in the unit box.
-const LONGEST: f64 = 0.3;
+/// Keeps the normal equations solvable, scaled to ones on the diagonal.
+const RIDGE: f64 = 1e-10;
 
 /// A law at its best shapes.
 #[derive(Clone)]
@@ -32,7 +33,6 @@ struct Local {
     gain: f64,
     gram: DMatrix<f64>,
     right: DVector<f64>,
-    coefficients: usize,
 }
 
 impl Null<'_> {
@@ -42,8 +42,9 @@ impl Null<'_> {
         let base = self.shapes();
         let all: Vec<f64> = base.iter().chain(&score.start).copied().collect();
         let mut unit = joint.unit(&all).split_off(base.len());
+        let of_base = joint.unit(&base);
         let physical = |unit: &[f64]| {
-            let all: Vec<f64> = joint.unit(&base).into_iter().chain(unit.iter().copied()).collect();
+            let all: Vec<f64> = of_base.iter().chain(unit).copied().collect();
             joint.physical(&all).split_off(base.len())
         };
         let stay = |gain: f64| Held { score, shape: score.start.clone(), gain };
@@ -53,7 +54,8 @@ impl Null<'_> {
         let mut here = self.local(&joint, score, &unit, &physical);
         let mut damping = 1e-3;
         for _ in 0..MOST {
-            let (step, promise) = here.step(damping, &unit);
+            let ridge = Ridge { coefficients: RIDGE, shapes: RIDGE + damping };
+            let (step, promise) = step(&here.gram, &here.right, ridge, &unit);
             if promise < LEAST_GAIN {
                 break;
             }
@@ -117,41 +119,6 @@ impl Null<'_> {
             gain: if gain.is_finite() { gain } else { 0.0 },
             gram: basis.transpose() * &gram * &basis,
             right: basis.transpose() * (right - carried),
-            coefficients: free,
-        }
-    }
-}
-
-impl Local {
-    /// Damped step of the shapes and what it promises; shapes on a wall do not leave the box.
-    fn step(&self, damping: f64, unit: &[f64]) -> (Vec<f64>, f64) {
-        let (k, d) = (self.coefficients, unit.len());
-        let mut held = vec![false; d];
-        loop {
-            let open: Vec<usize> =
-                (0..k + d).filter(|i| self.gram[(*i, *i)] > 0.0 && (*i < k || !held[i - k])).collect();
-            let scale: Vec<f64> = open.iter().map(|i| self.gram[(*i, *i)].sqrt()).collect();
-            let matrix = DMatrix::from_fn(open.len(), open.len(), |a, b| {
-                let ridge = if a == b { 1e-10 + if open[a] < k { 0.0 } else { damping } } else { 0.0 };
-                self.gram[(open[a], open[b])] / (scale[a] * scale[b]) + ridge
-            });
-            let right = DVector::from_fn(open.len(), |a, _| self.right[open[a]] / scale[a]);
-            let mut step = vec![0.0; d];
-            let Some(factor) = matrix.cholesky() else { return (step, 0.0) };
-            let solution = factor.solve(&right);
-            for (a, i) in open.iter().enumerate().filter(|(_, i)| **i >= k) {
-                step[i - k] = solution[a] / scale[a];
-            }
-            let outward = |j: usize| (unit[j] <= 0.0 && step[j] < 0.0) || (unit[j] >= 1.0 && step[j] > 0.0);
-            let leaving: Vec<usize> = (0..d).filter(|j| !held[*j] && outward(*j)).collect();
-            if leaving.is_empty() {
-                let longest = step.iter().fold(0.0_f64, |m, s| m.max(s.abs()));
-                let share = if longest > LONGEST { LONGEST / longest } else { 1.0 };
-                return (step.iter().map(|s| s * share).collect(), right.dot(&solution));
-            }
-            for j in leaving {
-                held[j] = true;
-            }
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::begin::Begun;
 use super::candidates::{Candidate, fit};
-use super::least_squares::{Data, Fitted, Point, refine};
+use super::least_squares::{Data, Fitted, forces, refine};
 use super::missing::{Generic, Mismatch};
 use super::normal::Rows;
 use super::screen::Null;
@@ -73,11 +73,8 @@ fn settle_reference(named: &mut Named, rows: &[Rows]) {
 /// Rms in N of what the best further candidate would change in the force.
 fn rms_change(named: &Named, data: Data) -> f64 {
     let Some(next) = &named.next else { return 0.0 };
-    let force = |assembly: &Assembly, fitted: &Fitted| {
-        Point::at(assembly, data, fitted.unit.clone()).recordings.into_iter().map(|l| l.force).collect()
-    };
-    let (a, b): (Vec<Vec<f64>>, Vec<Vec<f64>>) =
-        (force(&named.assembly, &named.fitted), force(&next.assembly, &next.fitted));
+    let a = forces(&named.assembly, data, &named.fitted);
+    let b = forces(&next.assembly, data, &next.fitted);
     let change: Vec<Vec<f64>> =
         a.iter().zip(&b).map(|(a, b)| a.iter().zip(b).map(|(a, b)| a - b).collect()).collect();
     rms(&change)

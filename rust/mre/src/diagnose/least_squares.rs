@@ -1,12 +1,12 @@
 //! Joint least squares of an assembly on whitened data: coefficients exactly, shapes by Gauss-Newton
 //! steps in the unit box (variable projection, Golub and Pereyra 1973, in the form of Ruhe and Wedin 1980).
 
-use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::bounded;
 use super::noise::Noise;
 use super::normal::{Normal, Rows, whitened};
+use super::step::{Ridge, step};
 use crate::assembly::{Assembly, Columns};
 use crate::kernel::filter::dot;
 
@@ -54,7 +54,8 @@ pub(super) fn refine_at_most(assembly: &Assembly, data: Data, start: &[f64], mos
     let mut full = None;
     for _ in 0..most {
         let system = full.get_or_insert_with(|| here.with_tangents(assembly, data));
-        let (step, promise) = step(system, here.fitted.coefficients.len(), damping, &here.fitted.unit);
+        let ridge = Ridge { coefficients: 1e-12, shapes: damping };
+        let (step, promise) = step(&system.gram, &system.right, ridge, &here.fitted.unit);
         if promise < LEAST_GAIN {
             break;
         }
@@ -78,51 +79,17 @@ pub(super) fn refine_at_most(assembly: &Assembly, data: Data, start: &[f64], mos
     here.fitted
 }
 
-/// Damped Gauss-Newton step of the shapes, and what it takes off the linearised sum of squares; shapes on a
-/// wall stay where the step points out of the box.
-fn step(system: &Normal, coefficients: usize, damping: f64, unit: &[f64]) -> (DVector<f64>, f64) {
-    let (k, d) = (coefficients, unit.len());
-    let mut held = vec![false; d];
-    loop {
-        let scale: Vec<f64> =
-            (0..k + d).map(|i| system.gram[(i, i)].sqrt().max(f64::MIN_POSITIVE.sqrt())).collect();
-        let open: Vec<usize> =
-            (0..k + d).filter(|i| system.gram[(*i, *i)] > 0.0 && (*i < k || !held[i - k])).collect();
-        let matrix = DMatrix::from_fn(open.len(), open.len(), |a, b| {
-            let (i, j) = (open[a], open[b]);
-            let ridge = if a == b { if i < k { 1e-12 } else { damping } } else { 0.0 };
-            system.gram[(i, j)] / (scale[i] * scale[j]) + ridge
-        });
-        let right = DVector::from_fn(open.len(), |a, _| system.right[open[a]] / scale[open[a]]);
-        let mut found = DVector::zeros(d);
-        let Some(factor) = matrix.cholesky() else { return (found, 0.0) };
-        let solution = factor.solve(&right);
-        for (a, i) in open.iter().enumerate() {
-            if *i >= k {
-                found[i - k] = solution[a] / scale[*i];
-            }
-        }
-        let outward = |j: usize| (unit[j] <= 0.0 && found[j] < 0.0) || (unit[j] >= 1.0 && found[j] > 0.0);
-        let mut more = false;
-        for (j, held) in held.iter_mut().enumerate() {
-            if !*held && outward(j) {
-                (*held, more) = (true, true);
-            }
-        }
-        if !more {
-            // No step leaves the trusted part of the box.
-            let longest = found.iter().fold(0.0_f64, |m, s| m.max(s.abs()));
-            let promise = right.dot(&solution);
-            return (if longest > 0.3 { found * (0.3 / longest) } else { found }, promise);
-        }
-    }
-}
-
 /// An assembly at given shapes, with its best coefficients.
 pub(super) struct Point {
     pub(super) fitted: Fitted,
     pub(super) recordings: Vec<Local>,
     normal: Normal,
+}
+
+/// Force in N of a fit, by recording.
+pub(super) fn forces(assembly: &Assembly, data: Data, fitted: &Fitted) -> Vec<Vec<f64>> {
+    let point = Point::at(assembly, data, fitted.unit.clone());
+    point.recordings.into_iter().map(|local| local.force).collect()
 }
 
 /// One recording at a point.

@@ -27,6 +27,7 @@ mod run;
 mod screen;
 mod search;
 mod settings;
+mod step;
 mod unknown;
 mod verdict;
 

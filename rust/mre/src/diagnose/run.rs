@@ -2,11 +2,11 @@
 
 use super::absorbed::{Absorbed, absorbed};
 use super::alternatives::rivals;
-use super::begin::{Begun, Given, begin};
+use super::begin::{Given, begin};
 use super::candidates::{by_effect, residuals};
 use super::intervals::{Estimates, estimates};
 use super::judge::{Judged, judge};
-use super::least_squares::{Data, Fitted, Point};
+use super::least_squares::{Data, forces};
 use super::locate::{Finding, locate};
 use super::next_test::{Doubt, NextTest, propose};
 use super::normal::Rows;
@@ -16,7 +16,7 @@ use super::search::{Named, Search, rms};
 use super::settings::Settings;
 use super::unknown::{self, Unknown};
 use super::verdict::{Evidence, Verdict};
-use crate::assembly::{Assembly, Base, Campaign};
+use crate::assembly::{Base, Campaign};
 use crate::recording::Recording;
 
 /// An effect that was named.
@@ -95,7 +95,7 @@ pub fn run<'a>(
     let Judged { mut named, base: base_fit, evidence, verdict } = judged;
     let noise = named.noise.clone();
     let data = Data { noise: &noise, rows: &rows };
-    let alone = null(&begun, data, &base_fit);
+    let alone = Null::new(&begun.assembly, data, &base_fit.unit);
     let places = alone.as_ref().map_or_else(Vec::new, |n| locate(n, settings.false_alarm));
     let unknown = match verdict {
         Verdict::Unexplained => alone.as_ref().map(unknown::describe),
@@ -140,10 +140,6 @@ pub fn run<'a>(
         .collect();
     effects.sort_by(|a, b| b.held_out_before.total_cmp(&a.held_out_before));
     let next_test = propose(&named, base, &doubt, &rows, settings);
-    let force = |assembly: &Assembly, fitted: &Fitted| -> Vec<Vec<f64>> {
-        let point = Point::at(assembly, data, fitted.unit.clone());
-        point.recordings.into_iter().map(|local| local.force).collect()
-    };
     Diagnosis {
         verdict,
         evidence,
@@ -158,8 +154,8 @@ pub fn run<'a>(
         unknown,
         nearest,
         next_test,
-        base_force: force(&begun.assembly, &base_fit),
-        final_force: force(&named.assembly, &named.fitted),
+        base_force: forces(&begun.assembly, data, &base_fit),
+        final_force: forces(&named.assembly, data, &named.fitted),
         base: Named {
             assembly: begun.assembly.clone(),
             fitted: base_fit,
@@ -170,10 +166,6 @@ pub fn run<'a>(
         },
         named,
     }
-}
-
-fn null<'b>(begun: &'b Begun<'b>, data: Data<'b>, fitted: &Fitted) -> Option<Null<'b>> {
-    Null::new(&begun.assembly, data, &fitted.unit)
 }
 
 /// p-value of every effect beside the final model.
