@@ -168,6 +168,8 @@ def diagnose_recordings(
     false_alarm: float,
     seed: int,
     held: Sequence[tuple[float | None, Sequence[float]]] | None = None,
+    held_effects: Sequence[tuple[str, str, Sequence[float], Sequence[float]]] = [],
+    sizes: Mapping[str, Any] | None = None,
     given: Sequence[ArrayLike] | None = None,
     base_effects: Sequence[tuple[str, str, Sequence[float]]] = [],
     without: Sequence[str] = [],

@@ -101,8 +101,11 @@ def diagnose(
 
     def model(levels: Any, effects: Any) -> Model:
         found = given or levels_of(symbols, currents, levels)
-        sizes = raw["sizes"] if effects else {}
-        return Model(name, found, largest_motion(everything), tuple(map(effect_of, effects)), sizes)
+        kept = start.effects if given and isinstance(start, Model) else ()
+        all_effects = (*kept, *map(effect_of, effects))
+        return Model(
+            name, found, largest_motion(everything), all_effects, raw["sizes"] if all_effects else {}
+        )
 
     base_model = model(raw["base_levels"], raw["base_effects"])
     if given and isinstance(start, Model):
@@ -118,7 +121,9 @@ def diagnose(
         effects=missing_effects(raw, names, rms_of_force(everything)),
         where=tuple(place_of(place, names) for place in raw["where"]),
         fit=comparison(raw),
-        unknown=unknown_of(raw),
+        unknown=unknown_of(
+            raw, {n: (np.asarray(r.force), f) for n, r, f in zip(names, everything, last, strict=True)}
+        ),
         absorbed_detail=hidden_effects(raw),
         next_test=next_test_of(raw),
         p_values={"base": raw["p_base"], "rest": raw["p_rest"], "effects": dict(raw["candidates"])},
@@ -161,8 +166,8 @@ def _base(start: str | Model, recordings: Sequence[Recording], *, fixed: bool) -
     """Tell what the core needs of the base beside its name."""
     effects = start.effects if isinstance(start, Model) else ()
     simulated = (start.name if isinstance(start, Model) else start) == SIMULATED
-    if effects and (fixed or simulated):
-        raise InputError("the base is kept as it is and has effects", wanted="a model without effects")
+    if effects and simulated:
+        raise InputError("the base is a simulation and has effects", wanted="a model without effects")
     if simulated:
         return {"given": [simulate(Model(SIMULATED, (Level(None, {}),)), r) for r in recordings]}
     if fixed:
@@ -170,5 +175,6 @@ def _base(start: str | Model, recordings: Sequence[Recording], *, fixed: bool) -
             raise InputError(f"the base is '{start}' and fixed", wanted="a model.json, which has parameters")
         for recording in recordings:
             simulate(start, recording)  # says what it cannot follow
-        return {"held": start.given()}
+        kept = {"held_effects": [e.given() for e in effects], "sizes": start.sizes} if effects else {}
+        return {"held": start.given(), **kept}
     return {"base_effects": [(e.id, e.law, e.given()[3]) for e in effects]}

@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _core, words
 from ._core import Recording
@@ -12,6 +13,7 @@ from .diagnosis import Comparison, Estimate, MissingEffect
 from .effects import Effect
 from .model import Level
 
+Series = NDArray[np.float64]
 Raw = Mapping[str, Any]
 """An object of the core's JSON."""
 
@@ -130,15 +132,22 @@ def hidden_effects(raw: Raw) -> tuple[dict[str, Any], ...]:
     )
 
 
-def unknown_of(raw: Raw) -> dict[str, Any] | None:
-    """Describe what an unexplained mismatch depends on, in words too."""
+def unknown_of(raw: Raw, forces: Mapping[str, tuple[Series, Series]]) -> dict[str, Any] | None:
+    """Describe what an unexplained mismatch depends on, in words too.
+
+    `forces` are measured and modelled by recording: their ratio shows which recordings differ.
+    """
     if raw["unknown"] is None:
         return None
-    return {
-        "statement": words.unknown(raw["unknown"], raw["nearest"]),
-        "nearest": raw["nearest"],
-        **raw["unknown"],
-    }
+    found = {**raw["unknown"], "measured_over_model": {n: _ratio(*pair) for n, pair in forces.items()}}
+    return {"statement": words.unknown(found, raw["nearest"]), "nearest": raw["nearest"], **found}
+
+
+def _ratio(measured: Series, model: Series) -> float | None:
+    """Slope of the measured force over the modelled one; None where the model does not move."""
+    spread = model - model.mean()
+    square = float(spread @ spread)
+    return float(measured @ spread) / square if square > 0 else None
 
 
 def next_test_of(raw: Raw) -> dict[str, Any] | None:

@@ -126,8 +126,20 @@ def unknown(found: Mapping[str, Any], nearest: Sequence[str]) -> str:
         f" The nearest effects of the catalogue, {listed(nearest)}, leave too much of it." if nearest else ""
     )
     return (
-        f"A force of about {_force(found['rms_N'])} rms is unexplained: {on}; over displacement and velocity"
-        f" it is {shape} and {energy}.{told}"
+        f"A force of about {_force(found['rms_N'])} rms over displacement and velocity is unexplained: {on};"
+        f" it is {shape} and {energy}.{_by_recording(found)}{told}"
+    )
+
+
+def _by_recording(found: Mapping[str, Any]) -> str:
+    """Say which recordings differ most, where something does from one to another."""
+    ratios = {name: r for name, r in found.get("measured_over_model", {}).items() if r is not None}
+    if len(ratios) < 2 or "recording" not in {d["on"] for d in found["depends_on"]}:
+        return ""
+    low, high = min(ratios, key=lambda n: ratios[n]), max(ratios, key=lambda n: ratios[n])
+    return (
+        f" Something that is not recorded changes from recording to recording: the measured force is"
+        f" {ratios[low]:.2f} times the model's in '{low}' and {ratios[high]:.2f} times in '{high}'."
     )
 
 

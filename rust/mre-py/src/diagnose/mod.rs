@@ -2,14 +2,15 @@
 
 mod describe;
 
-use mre::assembly::{Base, Campaign};
+use mre::assembly::{Base, Campaign, Kept};
 use mre::diagnose::{self, KINDS, Limits, Settings};
 use mre::error::{Error, Result};
 use numpy::PyArray1;
 use pyo3::prelude::*;
+use pyo3::types::PyMapping;
 
 use crate::device::{self, Levels};
-use crate::effects::law_of;
+use crate::effects::{self, Given, law_of};
 use crate::error::to_python;
 use crate::recording::Recording;
 use crate::run::in_pool;
@@ -20,10 +21,10 @@ type Forces<'py> = Vec<Bound<'py, PyArray1<f64>>>;
 ///
 /// `groups` are the places of recordings that share parameters of the model. Where `held` has levels, the
 /// model keeps them; where `given` has a force for every recording, that force is the base instead of the
-/// model. `base_effects` are `(id, law, shapes to start from)` of effects that belong to the base,
+/// model; `held_effects` as for a simulation, with their `sizes`, are kept with them. `base_effects` are `(id, law, shapes to start from)` of effects that belong to the base,
 /// `without` ids of effects that are ruled out.
 #[pyfunction]
-#[pyo3(signature = (recordings, model, groups, *, false_alarm, seed, held=None, given=None, base_effects=Vec::new(), without=Vec::new(), threads=None))]
+#[pyo3(signature = (recordings, model, groups, *, false_alarm, seed, held=None, held_effects=Vec::new(), sizes=None, given=None, base_effects=Vec::new(), without=Vec::new(), threads=None))]
 #[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)]
 pub(crate) fn diagnose_recordings<'py>(
     py: Python<'py>,
@@ -33,6 +34,8 @@ pub(crate) fn diagnose_recordings<'py>(
     false_alarm: f64,
     seed: u64,
     held: Option<Levels>,
+    held_effects: Vec<Given>,
+    sizes: Option<Bound<'py, PyMapping>>,
     given: Option<Vec<Vec<f64>>>,
     base_effects: Vec<(String, String, Vec<f64>)>,
     without: Vec<String>,
@@ -40,14 +43,23 @@ pub(crate) fn diagnose_recordings<'py>(
 ) -> PyResult<(String, Forces<'py>, Forces<'py>)> {
     let recordings: Vec<_> = recordings.into_iter().map(|r| r.inner).collect();
     let held = held.map(|levels| device::device(model, levels)).transpose()?;
+    let kept = held_effects.into_iter().map(effects::addition).collect::<PyResult<Vec<_>>>()?;
+    let sizes = sizes.map(|sizes| effects::sizes(&sizes)).transpose()?;
     let own = base_effects
         .into_iter()
         .map(|(id, law, shapes)| Ok((law_of(&id, &law)?, shapes)))
         .collect::<PyResult<Vec<_>>>()?;
     let (result, _) = in_pool(py, threads, None, true, |_| -> Result<(String, Histories, Histories)> {
-        let campaign = Campaign::new(recordings.clone())?;
+        let mut campaign = Campaign::new(recordings.clone())?;
+        if let Some(sizes) = &sizes {
+            // Effects of one model have one set of sizes.
+            campaign = campaign.sized(sizes.clone());
+        }
         let base = match (held, given) {
-            (Some(device), _) => Base::Held(device),
+            (Some(device), _) => Base::Held(match sizes {
+                Some(sizes) => Kept::with_effects(device, kept, sizes),
+                None => Kept::new(device),
+            }),
             (None, Some(force)) => Base::Given(force),
             (None, None) => Base::fitted(&recordings, model, &groups)?,
         };

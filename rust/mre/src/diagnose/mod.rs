@@ -22,6 +22,7 @@ mod missing;
 mod next_test;
 mod noise;
 mod normal;
+mod plain_mismatch;
 mod prove;
 mod run;
 mod screen;

@@ -162,6 +162,7 @@ pub fn run<'a>(
             noise: named.noise.clone(),
             scores: Vec::new(),
             next: None,
+            later: Vec::new(),
             p_values: Vec::new(),
         },
         named,

@@ -6,6 +6,7 @@
 //! known covariance, whatever the number of samples.
 
 use super::bounded;
+use super::candidates::of_the_scored;
 use super::distribution::{chi_square_tail, normal};
 use super::least_squares::{Data, Point};
 use super::normal::whitened;
@@ -97,16 +98,11 @@ impl<'a> Null<'a> {
         &self.assembly
     }
 
-    /// Residuals of the fitted model, N.
+    /// Residuals of the fitted model in N, of the samples that are scored.
     pub(super) fn residuals(&self) -> Vec<Vec<f64>> {
         let recordings = self.assembly.campaign().recordings();
         let pairs = recordings.iter().zip(&self.point.recordings);
-        pairs
-            .map(|(r, local)| {
-                let measured = r.force().unwrap_or_default();
-                measured.iter().zip(&local.force).map(|(f, model)| f - model).collect()
-            })
-            .collect()
+        pairs.map(|(r, local)| of_the_scored(r, &local.force)).collect()
     }
 
     /// What effects see of a recording.

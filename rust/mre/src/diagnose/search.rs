@@ -25,6 +25,8 @@ const MOST: usize = 4;
 pub(super) const REFITTED: usize = 8;
 /// The same where only the best is wanted, roughly.
 const FEW: usize = 3;
+/// Effects after the best that are tried where that fails.
+const LATER: usize = 3;
 /// Candidates for the first of a pair.
 const FIRSTS: usize = 5;
 /// A further effect lowers the held-out rms by more than this share of the noise's rms.
@@ -47,6 +49,8 @@ pub struct Named<'a> {
     pub scores: Vec<Score>,
     /// The best candidate beside this model, whether it is significant or not.
     pub next: Option<Candidate<'a>>,
+    /// The best of the effects that come after it.
+    pub later: Vec<Candidate<'a>>,
     /// For each effect, the p-value with which it entered.
     pub p_values: Vec<f64>,
 }
@@ -63,31 +67,42 @@ impl<'a> Search<'_, 'a> {
     /// Name the effects: the model found, and that of its first effect alone where there are more.
     pub(super) fn run(&self) -> (Named<'a>, Option<Named<'a>>) {
         let mut here = self.look(self.begun.assembly.clone(), &self.begun.fitted.unit, &self.begun.noise);
-        let (mut first, mut removed_by_first) = (None, None);
+        let (mut first, mut removed_by_first) = (None, 0.0);
         while self.found(&here) < MOST {
-            let Some((p_value, next)) = self.significant(&here) else { break };
-            let mut wider = self.look(next.assembly.clone(), &next.fitted.unit, &here.noise);
-            wider.p_values = here.p_values.iter().copied().chain([p_value]).collect();
+            let Some(next) = here.next.as_ref() else { break };
+            let Some(wider) = self.wider(&here, next) else { break };
             if self.found(&here) == 0 {
-                wider = self.best_law(wider);
-                if let Some((_, second)) = self.significant(&wider) {
-                    wider = self.best_first(&here, wider, &second);
-                }
-                removed_by_first = Some(self.improvement(&here, &wider).0);
+                let wider =
+                    match wider.next.as_ref().filter(|second| self.significant(&wider, second).is_some()) {
+                        Some(second) => self.best_first(&here, &wider, second),
+                        None => wider,
+                    };
+                let [held_out, trained, _] = self.improvement(&here, &wider);
+                // A base that fails plainly where it is carried too far is no measure of the first effect.
+                removed_by_first = if wider.noise.hidden() { held_out.min(trained) } else { held_out };
                 first = Some(wider.clone());
+                here = wider;
             } else {
-                wider = self.best_law(wider);
-                let (removed, noise) = self.improvement(&here, &wider);
-                let enough = LEAST_OF_NOISE * noise;
-                if removed < enough || removed < LEAST_OF_FIRST * removed_by_first.unwrap_or(0.0) {
-                    break;
-                }
+                let worth = |wider: &Named<'a>| {
+                    let [removed, _, noise] = self.improvement(&here, wider);
+                    removed >= (LEAST_OF_NOISE * noise).max(LEAST_OF_FIRST * removed_by_first)
+                };
+                let later = || here.later.iter().filter_map(|c| self.wider(&here, c)).find(&worth);
+                let Some(wider) = Some(wider).filter(&worth).or_else(later) else { break };
+                here = wider;
             }
-            here = wider;
         }
         let named = self.without_the_needless(here);
         let more = self.found(&named) > 1;
         (named, first.filter(|_| more))
+    }
+
+    /// A model with one more effect, if that is significant.
+    fn wider(&self, here: &Named<'a>, next: &Candidate<'a>) -> Option<Named<'a>> {
+        let p_value = self.significant(here, next)?;
+        let mut wider = self.look(next.assembly.clone(), &next.fitted.unit, &here.noise);
+        wider.p_values = here.p_values.iter().copied().chain([p_value]).collect();
+        Some(self.best_law(wider))
     }
 
     /// Number of effects that belong to the base.
@@ -112,15 +127,23 @@ impl<'a> Search<'_, 'a> {
         let data = Data { noise: &noise, rows: self.rows };
         let Candidate { assembly, fitted } = fit(assembly, data, &first.unit);
         let found = scores(&assembly, data, &fitted.unit, self.settings);
-        let next = candidates(&assembly, data, &fitted.unit, &found, REFITTED).into_iter().next();
-        Named { assembly, fitted, noise, scores: found, next, p_values: Vec::new() }
+        let mut tried = candidates(&assembly, data, &fitted.unit, &found, REFITTED).into_iter();
+        let next = tried.next();
+        let mut later: Vec<Candidate> = Vec::new();
+        // Likelihoods of a noise that is not known may put an effect first that fails on other data.
+        for candidate in tried.filter(|_| noise.hidden()) {
+            let id = candidate.added();
+            if later.len() < LATER && later.iter().chain(&next).all(|c| c.added() != id) {
+                later.push(candidate);
+            }
+        }
+        Named { assembly, fitted, noise, scores: found, next, later, p_values: Vec::new() }
     }
 
-    /// The best candidate, if its effect passes Holm's threshold: the smallest p-value against the number of
-    /// effects does, or the candidate's own does in its turn.
-    fn significant(&self, here: &Named<'a>) -> Option<(f64, Candidate<'a>)> {
-        let next = here.next.as_ref()?;
-        let id = next.assembly.effects().last()?.about().effect;
+    /// The p-value of a candidate, if its effect passes Holm's threshold: the smallest p-value against the
+    /// number of effects does, or the candidate's own does in its turn.
+    fn significant(&self, here: &Named<'a>, next: &Candidate<'a>) -> Option<f64> {
+        let id = next.added()?;
         let mut effects = by_effect(&here.scores);
         effects.sort_by(|a, b| a.1.total_cmp(&b.1));
         let mut adjusted: f64 = 0.0;
@@ -130,7 +153,7 @@ impl<'a> Search<'_, 'a> {
                 return None;
             }
             if *effect == id {
-                return Some((adjusted, next.clone()));
+                return Some(adjusted);
             }
         }
         None
@@ -197,7 +220,7 @@ impl<'a> Search<'_, 'a> {
 
     /// The first of the best pair, where the pair from another first is clearly better than the pair from
     /// the best single effect.
-    fn best_first(&self, before: &Named<'a>, single: Named<'a>, second: &Candidate<'a>) -> Named<'a> {
+    fn best_first(&self, before: &Named<'a>, single: &Named<'a>, second: &Candidate<'a>) -> Named<'a> {
         let data = Data { noise: &single.noise, rows: self.rows };
         let given = self.given();
         let known = single.assembly.effects()[given].about().effect;
@@ -226,19 +249,21 @@ impl<'a> Search<'_, 'a> {
                 named.p_values = p_values;
                 named
             }
-            _ => single,
+            _ => single.clone(),
         }
     }
 
-    /// How much one model lowers the held-out rms of another, N, and the rms of the noise.
-    fn improvement(&self, before: &Named<'a>, after: &Named<'a>) -> (f64, f64) {
-        let proof = |n: &Named<'a>| prove(&n.assembly, &after.noise, self.splits, &n.fitted).held_out_rms;
+    /// How much one model lowers the held-out rms of another, that on the samples trained on, and the rms of
+    /// the noise, N.
+    fn improvement(&self, before: &Named<'a>, after: &Named<'a>) -> [f64; 3] {
+        let proof = |n: &Named<'a>| prove(&n.assembly, &after.noise, self.splits, &n.fitted);
+        let (a, b) = (proof(before), proof(after));
         let data = Data { noise: &after.noise, rows: self.rows };
         let left = match &after.next {
             Some(next) => residuals(&next.assembly, data, &next.fitted),
             None => residuals(&after.assembly, data, &after.fitted),
         };
-        (proof(before) - proof(after), rms(&left))
+        [a.held_out_rms - b.held_out_rms, a.train_rms - b.train_rms, rms(&left)]
     }
 
     /// Remove effects that the others make unnecessary.
