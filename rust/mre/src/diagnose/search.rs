@@ -11,6 +11,7 @@ use rayon::prelude::*;
 use super::begin::Begun;
 use super::candidates::{Candidate, by_effect, candidates, fit, joint, noise_left, residuals, scores};
 use super::least_squares::{Data, Fitted};
+use super::monitor::{Monitor, Stage};
 use super::noise::Noise;
 use super::normal::Rows;
 use super::prove::{Split, prove};
@@ -57,37 +58,71 @@ pub(super) struct Search<'s, 'a> {
     pub(super) rows: &'s [Rows],
     pub(super) splits: &'s [Split],
     pub(super) settings: &'s Settings,
+    pub(super) monitor: &'s dyn Monitor,
 }
 
 impl<'a> Search<'_, 'a> {
     /// Name the effects: the model found, and that of its first effect alone where there are more.
+    ///
+    /// Where the search is broken off, the model found so far.
     pub(super) fn run(&self) -> (Named<'a>, Option<Named<'a>>) {
-        let mut here = self.look(self.begun.assembly.clone(), &self.begun.fitted.unit, &self.begun.noise);
+        let Begun { assembly, fitted, noise } = self.begun;
+        let Some(mut here) = self.look(assembly.clone(), &fitted.unit, noise) else {
+            return (self.bare(), None);
+        };
         let (mut first, mut removed_by_first) = (None, None);
         while self.found(&here) < MOST {
             let Some((p_value, next)) = self.significant(&here) else { break };
-            let mut wider = self.look(next.assembly.clone(), &next.fitted.unit, &here.noise);
+            let Some(mut wider) = self.look(next.assembly.clone(), &next.fitted.unit, &here.noise) else {
+                break;
+            };
             wider.p_values = here.p_values.iter().copied().chain([p_value]).collect();
             if self.found(&here) == 0 {
-                wider = self.best_law(wider);
-                if let Some((_, second)) = self.significant(&wider) {
-                    wider = self.best_first(&here, wider, &second);
-                }
-                removed_by_first = Some(self.improvement(&here, &wider).0);
-                first = Some(wider.clone());
+                let Some((best, removed)) = self.best_of_first(&here, &wider) else {
+                    here = wider;
+                    break;
+                };
+                removed_by_first = Some(removed);
+                first = Some(best.clone());
+                wider = best;
             } else {
-                wider = self.best_law(wider);
-                let (removed, noise) = self.improvement(&here, &wider);
+                let Some(best) = self.best_law(wider) else { break };
+                let Some((removed, noise)) = self.improvement(&here, &best) else { break };
                 let enough = LEAST_OF_NOISE * noise;
                 if removed < enough || removed < LEAST_OF_FIRST * removed_by_first.unwrap_or(0.0) {
                     break;
                 }
+                wider = best;
             }
             here = wider;
         }
         let named = self.without_the_needless(here);
         let more = self.found(&named) > 1;
         (named, first.filter(|_| more))
+    }
+
+    /// The base alone, before anything was scored beside it.
+    fn bare(&self) -> Named<'a> {
+        let Begun { assembly, fitted, noise } = self.begun.clone();
+        Named { assembly, fitted, noise, scores: Vec::new(), next: None, p_values: Vec::new() }
+    }
+
+    /// The best first effect with its best law, and by how much it lowers the held-out rms, N.
+    fn best_of_first(&self, before: &Named<'a>, single: &Named<'a>) -> Option<(Named<'a>, f64)> {
+        let mut best = self.best_law(single.clone())?;
+        if let Some((_, second)) = self.significant(&best) {
+            best = self.best_first(before, best, &second)?;
+        }
+        let removed = self.improvement(before, &best)?.0;
+        Some((best, removed))
+    }
+
+    /// The recordings under some noise.
+    pub(super) fn data<'d>(&self, noise: &'d Noise) -> Data<'d>
+    where
+        Self: 'd,
+    {
+        Data { noise, rows: self.rows, monitor: self.monitor }
     }
 
     /// Number of effects that belong to the base.
@@ -101,19 +136,25 @@ impl<'a> Search<'_, 'a> {
     }
 
     /// Score the catalogue beside a model, with the noise that the best of a few candidates leaves.
-    fn look(&self, assembly: Assembly<'a>, unit: &[f64], noise: &Noise) -> Named<'a> {
-        let data = Data { noise, rows: self.rows };
-        let Candidate { assembly, fitted: first } = fit(assembly, data, unit);
-        let found = scores(&assembly, data, &first.unit, self.settings);
-        let noise = match candidates(&assembly, data, &first.unit, &found, FEW).first() {
-            Some(best) => noise_left(&best.assembly, data, &best.fitted),
-            None => noise_left(&assembly, data, &first),
-        };
-        let data = Data { noise: &noise, rows: self.rows };
+    fn look(&self, assembly: Assembly<'a>, unit: &[f64], noise: &Noise) -> Option<Named<'a>> {
+        let beside = Stage::Catalogue(assembly.effects().len() - self.given());
+        let data = self.data(noise);
+        let (assembly, noise, first) = self.monitor.stage(beside, || {
+            let Candidate { assembly, fitted: first } = fit(assembly, data, unit);
+            let found = scores(&assembly, data, &first.unit, self.settings);
+            let noise = match candidates(&assembly, data, &first.unit, &found, FEW).first() {
+                Some(best) => noise_left(&best.assembly, data, &best.fitted),
+                None => noise_left(&assembly, data, &first),
+            };
+            (assembly, noise, first)
+        })?;
+        let data = self.data(&noise);
         let Candidate { assembly, fitted } = fit(assembly, data, &first.unit);
         let found = scores(&assembly, data, &fitted.unit, self.settings);
-        let next = candidates(&assembly, data, &fitted.unit, &found, REFITTED).into_iter().next();
-        Named { assembly, fitted, noise, scores: found, next, p_values: Vec::new() }
+        let next = self.monitor.stage(Stage::Candidates, || {
+            candidates(&assembly, data, &fitted.unit, &found, REFITTED).into_iter().next()
+        })?;
+        Some(Named { assembly, fitted, noise, scores: found, next, p_values: Vec::new() })
     }
 
     /// The best candidate, if its effect passes Holm's threshold: the smallest p-value against the number of
@@ -137,7 +178,8 @@ impl<'a> Search<'_, 'a> {
     }
 
     /// The same effects, each with the law that leaves least.
-    fn best_law(&self, named: Named<'a>) -> Named<'a> {
+    fn best_law(&self, named: Named<'a>) -> Option<Named<'a>> {
+        self.monitor.begins(Stage::Laws);
         let mut best = named;
         for place in self.given()..best.assembly.effects().len() {
             let known = best.assembly.effects()[place];
@@ -146,7 +188,7 @@ impl<'a> Search<'_, 'a> {
                     && e.about() != known.about()
                     && e.applies(best.assembly.campaign().sizes())
             });
-            let data = Data { noise: &best.noise, rows: self.rows };
+            let data = self.data(&best.noise);
             let without = self.drop(&best, place);
             let tried = others
                 .collect::<Vec<_>>()
@@ -158,13 +200,13 @@ impl<'a> Search<'_, 'a> {
                 .into_iter()
                 .filter(|c| c.criterion() < now.criterion() - CLEAR)
                 .min_by(|a, b| a.criterion().total_cmp(&b.criterion()));
-            if let Some(better) = better {
+            if let Some(better) = self.monitor.whole(better)? {
                 let p_values = best.p_values.clone();
-                best = self.look(better.assembly, &better.fitted.unit, &best.noise);
+                best = self.look(better.assembly, &better.fitted.unit, &best.noise)?;
                 best.p_values = p_values;
             }
         }
-        best
+        Some(best)
     }
 
     /// Joint fit of a model with a law, from the law's two strongest starts.
@@ -190,15 +232,16 @@ impl<'a> Search<'_, 'a> {
             + named.assembly.effects()[..place].iter().map(|e| e.shape(sizes).len()).sum::<usize>();
         let count = named.assembly.effects()[place].shape(sizes).len();
         shapes.drain(first..first + count);
-        let data = Data { noise: &named.noise, rows: self.rows };
+        let data = self.data(&named.noise);
         let unit = narrower.unit(&shapes);
         fit(narrower, data, &unit)
     }
 
     /// The first of the best pair, where the pair from another first is clearly better than the pair from
     /// the best single effect.
-    fn best_first(&self, before: &Named<'a>, single: Named<'a>, second: &Candidate<'a>) -> Named<'a> {
-        let data = Data { noise: &single.noise, rows: self.rows };
+    fn best_first(&self, before: &Named<'a>, single: Named<'a>, second: &Candidate<'a>) -> Option<Named<'a>> {
+        self.monitor.begins(Stage::Pairs);
+        let data = self.data(&single.noise);
         let given = self.given();
         let known = single.assembly.effects()[given].about().effect;
         let mut firsts: Vec<Candidate> = Vec::new();
@@ -219,26 +262,29 @@ impl<'a> Search<'_, 'a> {
             })
             .collect();
         let best = pairs.into_iter().min_by(|a, b| a.1.criterion().total_cmp(&b.1.criterion()));
-        match best {
+        match self.monitor.whole(best)? {
             Some((first, pair)) if pair.criterion() < second.criterion() - CLEAR => {
-                let p_values = single.p_values.clone();
-                let mut named = self.look(first.assembly, &first.fitted.unit, &single.noise);
-                named.p_values = p_values;
-                named
+                let mut named = self.look(first.assembly, &first.fitted.unit, &single.noise)?;
+                named.p_values = single.p_values;
+                Some(named)
             }
-            _ => single,
+            _ => Some(single),
         }
     }
 
     /// How much one model lowers the held-out rms of another, N, and the rms of the noise.
-    fn improvement(&self, before: &Named<'a>, after: &Named<'a>) -> (f64, f64) {
-        let proof = |n: &Named<'a>| prove(&n.assembly, &after.noise, self.splits, &n.fitted).held_out_rms;
-        let data = Data { noise: &after.noise, rows: self.rows };
-        let left = match &after.next {
-            Some(next) => residuals(&next.assembly, data, &next.fitted),
-            None => residuals(&after.assembly, data, &after.fitted),
+    fn improvement(&self, before: &Named<'a>, after: &Named<'a>) -> Option<(f64, f64)> {
+        let proof = |n: &Named<'a>| {
+            prove(&n.assembly, &after.noise, self.splits, &n.fitted, self.monitor).held_out_rms
         };
-        (proof(before) - proof(after), rms(&left))
+        let data = self.data(&after.noise);
+        self.monitor.stage(Stage::Proof, || {
+            let left = match &after.next {
+                Some(next) => residuals(&next.assembly, data, &next.fitted),
+                None => residuals(&after.assembly, data, &after.fitted),
+            };
+            (proof(before) - proof(after), rms(&left))
+        })
     }
 
     /// Remove effects that the others make unnecessary.
@@ -247,12 +293,17 @@ impl<'a> Search<'_, 'a> {
         let mut place = self.given();
         while self.found(&here) > 1 && place < here.assembly.effects().len() {
             let now = Candidate { assembly: here.assembly.clone(), fitted: here.fitted.clone() };
-            let without = self.drop(&here, place);
+            let Some(without) = self.monitor.stage(Stage::Needless, || self.drop(&here, place)) else {
+                break;
+            };
             if without.criterion() < now.criterion() {
-                let mut p_values = here.p_values.clone();
-                p_values.remove(place - self.given());
-                here = self.look(without.assembly, &without.fitted.unit, &here.noise);
-                here.p_values = p_values;
+                let Some(mut narrower) = self.look(without.assembly, &without.fitted.unit, &here.noise)
+                else {
+                    break;
+                };
+                narrower.p_values.clone_from(&here.p_values);
+                narrower.p_values.remove(place - self.given());
+                here = narrower;
                 place = self.given();
             } else {
                 place += 1;
