@@ -30,7 +30,6 @@ from .model import SIMULATED, Level, Model, simulate
 from .suitable import check_recordings
 from .tested import largest_motion
 
-
 MOST_BLANKS = 100_000
 """More say no more about a rate."""
 DONE = "done"

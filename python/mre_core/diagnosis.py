@@ -113,9 +113,10 @@ class Diagnosis:
     seed: int
     histories: tuple[History, ...] = field(compare=False, repr=False)
     blank: Mapping[str, Any] | None = None
-    """Of simulations of the base model from which nothing is missing: their `count`, in how many an effect was
-    `named`, the `rate` with its 95 % interval from `low` to `high` beside the `stated` one, in how many a
-    mismatch was found and nothing named (`unexplained`), and how often each effect was named."""
+    """Of simulations of the base model, from which nothing is missing: their `count`, in how many an effect
+    was `named`, the `rate` with its 95 % interval from `low` to `high` beside the `stated` one, in how many
+    a mismatch was found and nothing named (`unexplained`), and how often each effect was named
+    (`by_effect`)."""
     interrupted: bool = False
     """True where Ctrl-C ended it early: what was not reached is empty, or nan."""
 

@@ -41,7 +41,7 @@ def broken_off(kind: str | None, base: str, effects: Sequence[str]) -> str:
     stands = {
         "adequate": "it explains the recordings down to their noise",
         "missing_physics": f"it leaves out {listed(effects)}",
-        "partly_explained": f"it leaves out {listed(effects)}, and more that no effect of the catalogue explains",
+        "partly_explained": f"it leaves out {listed(effects)}, and more that nothing known explains",
         "unexplained": "it misses something that no effect of the catalogue explains",
     }[kind]
     return f"Interrupted after the verdict on {model}: {stands}; not yet proved on held-out data."
@@ -49,12 +49,12 @@ def broken_off(kind: str | None, base: str, effects: Sequence[str]) -> str:
 
 def blank(found: Mapping[str, Any]) -> str:
     """Say how often something was named where nothing is missing."""
-    low, high = (f"{100 * found[end]:.2g} %" for end in ("low", "high"))
+    low, high = (f"{100 * found[end]:.3g} %" for end in ("low", "high"))
     times = ", ".join(f"{id} {count}" for id, count in found["by_effect"].items())
-    rate = f"{100 * found['rate']:.2g} %"
+    rate = f"{100 * found['rate']:.3g} %"
     return (
         f"In {found['named']} of {found['count']} simulated campaigns from which nothing is missing something"
-        f" was named: {rate} (95 % interval {low} to {high}), where {100 * found['stated']:.2g} % is stated"
+        f" was named: {rate} (95 % interval {low} to {high}), where {100 * found['stated']:.3g} % is stated"
         + (f"; named were {times}." if times else ".")
     )
 

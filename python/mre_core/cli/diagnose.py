@@ -77,25 +77,26 @@ def diagnose(
     from .show import print_diagnosis
     from .stages import stages
 
-    loaded = load_all(recordings, mapping, conditions, name_pattern, reading)
-    loaded = trimmed(loaded, cut, exclude)
-    place = staged(out) if out is not None else nullcontext()
-    with interrupts() as signals, place as stage:
-        with stages("diagnosing", quiet=quiet) as show:
-            found = run(
-                loaded,
-                base,
-                on_stage=lambda stage: signals.done() if stage == DONE else show(stage),
-                on_interrupt="return",
-                **options,
-            )
-        if isinstance(stage, Stage) and out is not None:
-            write_settings(stage, out, seed=found.seed)
-            _write(stage, found)
-    if as_json:
-        click.echo(to_json(found.to_dict()), nl=False)
-    elif not quiet:
-        print_diagnosis(found)
+    with interrupts() as signals:
+        loaded = load_all(recordings, mapping, conditions, name_pattern, reading)
+        loaded = trimmed(loaded, cut, exclude)
+        place = staged(out) if out is not None else nullcontext()
+        with place as stage:
+            with stages("diagnosing", quiet=quiet) as show:
+                found = run(
+                    loaded,
+                    base,
+                    on_stage=lambda now: signals.done() if now == DONE else show(now),
+                    on_interrupt="return",
+                    **options,
+                )
+            if isinstance(stage, Stage) and out is not None:
+                write_settings(stage, out, seed=found.seed)
+                _write(stage, found)
+        if as_json:
+            click.echo(to_json(found.to_dict()), nl=False)
+        elif not quiet:
+            print_diagnosis(found)
     return 130 if found.interrupted else 0
 
 
