@@ -13,6 +13,7 @@ mod candidates;
 mod diagnosis;
 mod distribution;
 mod drift;
+mod exchange;
 mod features;
 mod held;
 mod hum;

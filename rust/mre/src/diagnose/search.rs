@@ -6,10 +6,8 @@
 //! are searched from several firsts, because the best single effect may be neither of two; at the end an
 //! effect that the others make unnecessary leaves.
 
-use rayon::prelude::*;
-
 use super::begin::Begun;
-use super::candidates::{Candidate, by_effect, candidates, fit, joint, noise_left, residuals, scores};
+use super::candidates::{Candidate, by_effect, candidates, fit, noise_left, residuals, scores};
 use super::least_squares::{Data, Fitted};
 use super::monitor::{Monitor, Stage};
 use super::noise::Noise;
@@ -18,22 +16,17 @@ use super::prove::{Split, prove};
 use super::screen::Score;
 use super::settings::Settings;
 use crate::assembly::Assembly;
-use crate::effect::Effect;
 
 /// Most effects that are named.
 const MOST: usize = 4;
 /// Candidates that are refitted jointly.
 pub(super) const REFITTED: usize = 8;
 /// The same where only the best is wanted, roughly.
-const FEW: usize = 3;
-/// Candidates for the first of a pair.
-const FIRSTS: usize = 5;
+pub(super) const FEW: usize = 3;
 /// A further effect lowers the held-out rms by more than this share of the noise's rms.
 const LEAST_OF_NOISE: f64 = 0.1;
 /// And by more than this share of what the first one lowered it.
 const LEAST_OF_FIRST: f64 = 0.2;
-/// Advantage in the criterion that counts.
-const CLEAR: f64 = 10.0;
 
 /// A model with its fit and the noise that it leaves.
 #[derive(Clone)]
@@ -126,7 +119,7 @@ impl<'a> Search<'_, 'a> {
     }
 
     /// Number of effects that belong to the base.
-    fn given(&self) -> usize {
+    pub(super) fn given(&self) -> usize {
         self.begun.assembly.effects().len()
     }
 
@@ -136,7 +129,7 @@ impl<'a> Search<'_, 'a> {
     }
 
     /// Score the catalogue beside a model, with the noise that the best of a few candidates leaves.
-    fn look(&self, assembly: Assembly<'a>, unit: &[f64], noise: &Noise) -> Option<Named<'a>> {
+    pub(super) fn look(&self, assembly: Assembly<'a>, unit: &[f64], noise: &Noise) -> Option<Named<'a>> {
         let beside = Stage::Catalogue(assembly.effects().len() - self.given());
         let data = self.data(noise);
         let (assembly, noise, first) = self.monitor.stage(beside, || {
@@ -177,50 +170,6 @@ impl<'a> Search<'_, 'a> {
         None
     }
 
-    /// The same effects, each with the law that leaves least.
-    fn best_law(&self, named: Named<'a>) -> Option<Named<'a>> {
-        self.monitor.begins(Stage::Laws);
-        let mut best = named;
-        for place in self.given()..best.assembly.effects().len() {
-            let known = best.assembly.effects()[place];
-            let others = self.settings.laws.iter().copied().filter(|e| {
-                e.about().effect == known.about().effect
-                    && e.about() != known.about()
-                    && e.applies(best.assembly.campaign().sizes())
-            });
-            let data = self.data(&best.noise);
-            let without = self.drop(&best, place);
-            let tried = others
-                .collect::<Vec<_>>()
-                .into_par_iter()
-                .filter_map(|e| self.best_start(&without, data, e))
-                .collect::<Vec<_>>();
-            let now = Candidate { assembly: best.assembly.clone(), fitted: best.fitted.clone() };
-            let better = tried
-                .into_iter()
-                .filter(|c| c.criterion() < now.criterion() - CLEAR)
-                .min_by(|a, b| a.criterion().total_cmp(&b.criterion()));
-            if let Some(better) = self.monitor.whole(better)? {
-                let p_values = best.p_values.clone();
-                best = self.look(better.assembly, &better.fitted.unit, &best.noise)?;
-                best.p_values = p_values;
-            }
-        }
-        Some(best)
-    }
-
-    /// Joint fit of a model with a law, from the law's two strongest starts.
-    fn best_start(
-        &self,
-        without: &Candidate<'a>,
-        data: Data,
-        effect: &'static dyn Effect,
-    ) -> Option<Candidate<'a>> {
-        let null = super::screen::Null::new(&without.assembly, data, &without.fitted.unit)?;
-        let score = null.score(effect, self.settings.seed)?;
-        Some(joint(&without.assembly, data, &without.fitted.unit, effect, &null.held(&score).shape))
-    }
-
     /// A model without one of its effects, refitted.
     pub(super) fn drop(&self, named: &Named<'a>, place: usize) -> Candidate<'a> {
         let mut effects = named.assembly.effects().to_vec();
@@ -235,41 +184,6 @@ impl<'a> Search<'_, 'a> {
         let data = self.data(&named.noise);
         let unit = narrower.unit(&shapes);
         fit(narrower, data, &unit)
-    }
-
-    /// The first of the best pair, where the pair from another first is clearly better than the pair from
-    /// the best single effect.
-    fn best_first(&self, before: &Named<'a>, single: Named<'a>, second: &Candidate<'a>) -> Option<Named<'a>> {
-        self.monitor.begins(Stage::Pairs);
-        let data = self.data(&single.noise);
-        let given = self.given();
-        let known = single.assembly.effects()[given].about().effect;
-        let mut firsts: Vec<Candidate> = Vec::new();
-        for candidate in candidates(&before.assembly, data, &before.fitted.unit, &before.scores, REFITTED) {
-            let id = candidate.assembly.effects()[given].about().effect;
-            let seen = firsts.iter().any(|f| f.assembly.effects()[given].about().effect == id);
-            if id != known && !seen && firsts.len() < FIRSTS {
-                firsts.push(candidate);
-            }
-        }
-        let pairs: Vec<(Candidate, Candidate)> = firsts
-            .into_par_iter()
-            .filter_map(|first| {
-                let found = scores(&first.assembly, data, &first.fitted.unit, self.settings);
-                let best =
-                    candidates(&first.assembly, data, &first.fitted.unit, &found, FEW).into_iter().next()?;
-                Some((first, best))
-            })
-            .collect();
-        let best = pairs.into_iter().min_by(|a, b| a.1.criterion().total_cmp(&b.1.criterion()));
-        match self.monitor.whole(best)? {
-            Some((first, pair)) if pair.criterion() < second.criterion() - CLEAR => {
-                let mut named = self.look(first.assembly, &first.fitted.unit, &single.noise)?;
-                named.p_values = single.p_values;
-                Some(named)
-            }
-            _ => Some(single),
-        }
     }
 
     /// How much one model lowers the held-out rms of another, N, and the rms of the noise.
