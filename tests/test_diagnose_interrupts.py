@@ -208,7 +208,7 @@ mre_core.report.report_diagnosis = signalled
 
 def test_a_signal_while_the_results_are_written_lets_them_be(tmp_path: Path, files: list[Path]) -> None:
     out = tmp_path / "result"
-    options = ["--base", "sinh", "--seed", "1", "--quiet", "--out", out]
+    options = ["--base", "sinh", "--seed", "1", "--quiet", "--out", str(out)]
     run = run_process("diagnose", *files, *options, before=f"TIMES = 1\n{SIGNALLED}")
     assert (run.returncode, run.stderr) == (0, "")
     assert content_of(out)["interrupted"] is False
@@ -216,7 +216,7 @@ def test_a_signal_while_the_results_are_written_lets_them_be(tmp_path: Path, fil
 
 def test_a_second_signal_ends_that_too(tmp_path: Path, files: list[Path]) -> None:
     out = tmp_path / "result"
-    options = ["--base", "sinh", "--seed", "1", "--quiet", "--out", out]
+    options = ["--base", "sinh", "--seed", "1", "--quiet", "--out", str(out)]
     run = run_process("diagnose", *files, *options, before=f"TIMES = 2\n{SIGNALLED}")
     assert (run.returncode, run.stderr.strip()) == (130, "mre-core: interrupted")
     assert not out.exists()
