@@ -2,8 +2,8 @@
 
 import json
 import os
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Callable, Sequence
+from typing import Any, Literal
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from ._core import Recording
 from .diagnosis import Diagnosis, History
 from .errors import InputError
 from .findings import (
+    blank_of,
     comparison,
     effect_of,
     hidden_effects,
@@ -29,6 +30,11 @@ from .model import SIMULATED, Level, Model, simulate
 from .suitable import check_recordings
 from .tested import largest_motion
 
+MOST_BLANKS = 100_000
+"""More say no more about a rate."""
+DONE = "done"
+"""The last stage."""
+
 
 def diagnose(
     recordings: Recording | Sequence[Recording],
@@ -38,7 +44,10 @@ def diagnose(
     false_alarm: float = 0.01,
     fixed: bool = False,
     without: Sequence[str] = (),
+    blank: int = 0,
     threads: int | None = None,
+    on_stage: Callable[[str], Any] | None = None,
+    on_interrupt: Literal["raise", "return"] = "raise",
 ) -> Diagnosis:
     """Say whether a base model leaves out physics, where, which, and whether that helps on held-out data.
 
@@ -60,8 +69,16 @@ def diagnose(
         Keep the parameters of a given model as they are, and diagnose exactly that model.
     without : sequence of str
         Ids of effects that are ruled out, and not to be named.
+    blank : int
+        Diagnose so many simulations of the fitted base model with its fitted noise as well: how often an
+        effect is named where nothing is missing (`blank` of the result).
     threads : int, optional
         Threads; all cores by default. The result does not depend on them.
+    on_stage : callable, optional
+        Called with what is being done, in words, before each stage; the last is ``"done"``.
+    on_interrupt : {"raise", "return"}
+        What Ctrl-C does: raise KeyboardInterrupt, or return what is known so far, marked `interrupted`.
+        It is raised all the same where the base model is not yet fitted.
 
     Returns
     -------
@@ -79,6 +96,8 @@ def diagnose(
     given = start.levels if isinstance(start, Model) and fixed else None
     if isinstance(false_alarm, bool) or not 0 < false_alarm < 0.5:
         raise InputError(f"false_alarm is {false_alarm!r}", wanted="a number above 0 and below 0.5")
+    if isinstance(blank, bool) or not isinstance(blank, int | np.integer) or not 0 <= blank <= MOST_BLANKS:
+        raise InputError(f"blank is {blank!r}", wanted=f"a whole number from 0 to {MOST_BLANKS}")
     seed = draw_seed(seed)
     groups = group_by_current(everything)
     places = {id(recording): place for place, recording in enumerate(everything)}
@@ -93,7 +112,10 @@ def diagnose(
         false_alarm=float(false_alarm),
         seed=seed,
         without=_ruled_out(without),
+        blank=int(blank),
         threads=threads,
+        on_stage=on_stage,
+        on_interrupt=on_interrupt,
         **_base(start, everything, fixed=fixed),
     )
     raw = json.loads(text)
@@ -137,6 +159,8 @@ def diagnose(
             History(label, r.time, r.displacement, r.velocity, np.asarray(r.force), first, second)
             for label, r, first, second in zip(names, everything, before, last, strict=True)
         ),
+        blank=blank_of(raw, float(false_alarm)),
+        interrupted=raw["interrupted"],
     )
 
 

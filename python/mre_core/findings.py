@@ -70,8 +70,8 @@ def missing_effects(raw: Raw, names: Sequence[str], force: float) -> tuple[Missi
                 form="approximate" if inexact else "exact",
                 lack_of_fit=raw["lack_of_fit_N"] / force if inexact else 0.0,
                 indistinguishable_from=tuple(effect["indistinguishable_from"]),
-                held_out_rms_before=effect["held_out_rms_before"],
-                held_out_rms_after=effect["held_out_rms_after"],
+                held_out_rms_before=_known(effect["held_out_rms_before"]),
+                held_out_rms_after=_known(effect["held_out_rms_after"]),
             )
         )
     return tuple(found)
@@ -104,14 +104,35 @@ def place_of(raw: Raw, names: Sequence[str]) -> dict[str, Any]:
 
 def comparison(raw: Raw) -> Comparison:
     """Rms errors before and after."""
-    before, after = raw["before"], raw["after"]
+    before, after = raw["before"] or {}, raw["after"] or {}
     return Comparison(
-        train_rms_before=before["train_rms"],
-        train_rms_after=after["train_rms"],
-        held_out_rms_before=before["held_out_rms"],
-        held_out_rms_after=after["held_out_rms"],
-        noise_rms=raw["noise_rms"],
+        train_rms_before=_known(before.get("train_rms")),
+        train_rms_after=_known(after.get("train_rms")),
+        held_out_rms_before=_known(before.get("held_out_rms")),
+        held_out_rms_after=_known(after.get("held_out_rms")),
+        noise_rms=_known(raw["noise_rms"]),
     )
+
+
+def _known(value: float | None) -> float:
+    """Give a number, or nan where an interruption came before it."""
+    return float("nan") if value is None else value
+
+
+def blank_of(raw: Raw, stated: float) -> dict[str, Any] | None:
+    """Give the false-discovery rate of blank campaigns with its 95 % interval (Clopper and Pearson 1934)."""
+    found = raw["blank"]
+    if found is None:
+        return None
+    from scipy.stats import binomtest  # type: ignore[import-untyped]
+
+    count, named = found["count"], found["named"]
+    ends = binomtest(named, count).proportion_ci(0.95, method="exact")
+    return {
+        **{"count": count, "named": named, "rate": named / count},
+        **{"low": float(ends.low), "high": float(ends.high), "stated": stated},
+        **{"unexplained": found["unexplained"], "by_effect": found["by_effect"]},
+    }
 
 
 def hidden_effects(raw: Raw) -> tuple[dict[str, Any], ...]:

@@ -61,6 +61,9 @@ pub(super) struct Null<'a> {
 
 impl<'a> Null<'a> {
     pub(super) fn new(assembly: &Assembly<'a>, data: Data<'a>, unit: &[f64]) -> Option<Self> {
+        if data.monitor.broken_off() {
+            return None;
+        }
         let assembly = assembly.knowing(&assembly.physical(unit));
         let point = Point::at(&assembly, data, unit.to_vec());
         let count = point.fitted.coefficients.len() + unit.len();
@@ -91,6 +94,11 @@ impl<'a> Null<'a> {
         });
         let factor = scaled.cholesky()?;
         Some(Self { assembly, data, point, tangents, factor, scale, right })
+    }
+
+    /// True where the search was broken off.
+    pub(super) fn broken_off(&self) -> bool {
+        self.data.monitor.broken_off()
     }
 
     /// The model whose tangents are projected off.
@@ -148,7 +156,7 @@ impl<'a> Null<'a> {
     /// Score test of one law.
     pub(super) fn score(&self, effect: &'static dyn Effect, seed: u64) -> Option<Score> {
         let sizes = self.assembly.campaign().sizes();
-        if !effect.applies(sizes) {
+        if !effect.applies(sizes) || self.broken_off() {
             return None;
         }
         let starts = effect.starts(sizes);
