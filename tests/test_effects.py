@@ -118,7 +118,7 @@ BAD = {
     "parameter missing": (("maxwell_relaxation", "one branch", {"tau": 1.0}), ["are tau", "k_m, tau"]),
     "parameter too many": (("inertia", "moving mass", {"m": 1.0, "n": 2.0}), ["are m, n", "wanted m"]),
     "no parameter": (("inertia", "moving mass", {}), ["are none", "wanted m"]),
-    "not finite": (("inertia", "moving mass", {"m": float("nan")}), ["m of inertia", "NaN", "finite"]),
+    "not finite": (("inertia", "moving mass", {"m": float("nan")}), ["m of inertia", "nan", "finite"]),
     "not admissible": (("inertia", "moving mass", {"m": -1.0}), ["m of inertia", "-1", "from 0"]),
     "coefficients of a measurement": (
         ("mains_interference", "fundamental", {"A_1": 1.0, "B_1": 1.0, "f": 50.0}),

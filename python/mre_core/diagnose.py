@@ -3,6 +3,7 @@
 import json
 import os
 from collections.abc import Sequence
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -23,11 +24,23 @@ from .findings import (
     rms_of_force,
     unknown_of,
 )
-from .grouping import group_by_current
+from .grouping import each_of, group_by_current
 from .minimise import draw_seed
 from .model import SIMULATED, Level, Model, simulate
 from .suitable import check_recordings
 from .tested import largest_motion
+
+
+def check_false_alarm(given: object) -> None:
+    """Refuse what is no chance of a false alarm.
+
+    Raises
+    ------
+    InputError
+        It is no number in (0, 0.5).
+    """
+    if isinstance(given, bool) or not (isinstance(given, Real) and 0 < float(given) < 0.5):
+        raise InputError(f"false_alarm is {given!r}", wanted="a number above 0 and below 0.5")
 
 
 def diagnose(
@@ -73,12 +86,11 @@ def diagnose(
     MreError
         The recordings, the base or a setting cannot be used (a ValueError).
     """
-    everything = [recordings] if isinstance(recordings, Recording) else list(recordings)
+    everything = list(each_of(recordings))
     start = _read(base)
     name = start.name if isinstance(start, Model) else start
     given = start.levels if isinstance(start, Model) and fixed else None
-    if isinstance(false_alarm, bool) or not 0 < false_alarm < 0.5:
-        raise InputError(f"false_alarm is {false_alarm!r}", wanted="a number above 0 and below 0.5")
+    check_false_alarm(false_alarm)
     seed = draw_seed(seed)
     groups = group_by_current(everything)
     places = {id(recording): place for place, recording in enumerate(everything)}

@@ -47,6 +47,9 @@ def check_file(path: Path) -> None:
     InputError
         It is missing, not readable, no regular file or too large.
     """
+    if not is_text(str(path)):
+        wanted = "another name: it goes into results"
+        raise InputError("its name is no text in UTF-8", file=str(path), wanted=wanted)
     try:
         size = path.stat().st_size
         if path.is_dir():
@@ -61,6 +64,14 @@ def check_file(path: Path) -> None:
     if size > MOST_BYTES:
         wanted = f"at most {MOST_BYTES / 2**30:.0f} GiB (mre_core.read_chunks reads CSV of any size)"
         raise InputError(f"has {size / 2**30:.1f} GiB", file=str(path), value=size, wanted=wanted)
+
+
+def is_text(name: str) -> bool:
+    """Tell whether a name can be written: one of other bytes than UTF-8, or with a null byte, cannot."""
+    try:
+        return b"\0" not in name.encode()
+    except UnicodeEncodeError:
+        return False
 
 
 def check_values(count: int, file: str) -> None:
