@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 export CARGO_BUILD_JOBS ?= 2
 STAMP := $(VENV)/.installed
 
-.PHONY: demo study test test-rust test-python lint bench figures rivals trials proof docs install clean
+.PHONY: demo study test test-rust test-python lint bench figures rivals trials proof bad-inputs docs install clean
 
 # The main job: identify the paper's twelve tests (a simulated replica) with both models and all swarms.
 demo: install
@@ -60,6 +60,10 @@ proof: install
 	$(BIN)/mre-core trial open judged --tables docs/proof/judging
 	$(BIN)/python benches/real_proof
 	$(BIN)/python benches/proof.py
+
+# The page of bad inputs, from the table in tests/bad_inputs.
+bad-inputs: install
+	PYTHONPATH=tests $(BIN)/python -m bad_inputs
 
 # The documentation, into the folder site: it opens from disk. A link that leads nowhere is an error.
 docs: install

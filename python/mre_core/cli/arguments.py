@@ -210,11 +210,11 @@ def read_seeds(text: str) -> list[int]:
     """Read ``FIRST:END`` as whole numbers, the end left out."""
     first, colon, end = text.partition(":")
     try:
-        seeds = list(range(int(first), int(end)))
+        seeds = range(int(first), int(end))
         if not colon or not 0 < len(seeds) <= _MOST_SEEDS:
             raise ValueError
-        return seeds
-    except (ValueError, OverflowError, MemoryError):
+        return list(seeds)
+    except (ValueError, OverflowError):
         wanted = f"--seeds FIRST:END with two whole numbers, 1 to {_MOST_SEEDS} seeds"
         raise InputError(f"--seeds {text}", wanted=wanted) from None
 
