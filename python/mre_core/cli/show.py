@@ -25,10 +25,10 @@ def console() -> "Console":
 
 def print_diagnosis(found: "Diagnosis") -> None:
     """Verdict, effects with their parameters, where, and the fit."""
-    from rich.markup import escape
     from rich.table import Table
 
     from ..words import interval
+    from .escape import escape
 
     out = console()
     out.print(f"[bold]{found.verdict}[/bold]: {escape(str(found))}")

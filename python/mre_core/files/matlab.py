@@ -1,5 +1,6 @@
 """MATLAB .mat, versions 4 to 7.3: vectors of equal length in one workspace or struct are a table."""
 
+import math
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, Final
@@ -11,6 +12,7 @@ from .matlab73 import series_73
 from .options import ReadOptions
 from .table import NoTableError, Table
 
+_NO_NUMBERS: Final = {"cell", "char", "function", "object", "opaque", "sparse", "unknown"}
 _COMPRESSED: Final = 15
 """miCOMPRESSED of the format, version 5."""
 
@@ -60,7 +62,10 @@ def _series(path: Path) -> tuple[list[Series], list[str]]:
     try:
         check_values(_unpacked(path) // 8, file)
         shapes = scipy_io.whosmat(path)
-        content = scipy_io.loadmat(path, squeeze_me=True, struct_as_record=False)
+        for name, shape, _ in shapes:
+            check_values(math.prod(shape), f"{file}: variable '{name}'")
+        wanted = [name for name, _, kind in shapes if kind not in _NO_NUMBERS]
+        content = scipy_io.loadmat(path, squeeze_me=True, struct_as_record=False, variable_names=wanted)
     except InputError:
         raise
     except Exception as error:  # scipy has no error of its own for a broken file
