@@ -118,6 +118,13 @@ def test_lists_of_very_many_values(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     refused(tmp_path / "a.parquet", "unpacks to 2e+05 values")
 
 
+def test_a_column_whose_name_is_no_text(tmp_path: Path) -> None:
+    pq.write_table(pa.table(dict(zip(ROLES, VALUES, strict=True))), tmp_path / "a.parquet")
+    content = (tmp_path / "a.parquet").read_bytes()
+    (tmp_path / "a.parquet").write_bytes(content.replace(b"time_s", b"ti\x80e_s"))
+    refused(tmp_path / "a.parquet", "cannot be read", "a whole Parquet file")
+
+
 def mat(*elements: bytes) -> bytes:
     return b"MATLAB 5.0 MAT-file".ljust(124) + b"\x00\x01IM" + b"".join(elements)
 

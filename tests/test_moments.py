@@ -5,6 +5,7 @@ import signal
 from pathlib import Path
 
 import mre_core
+import pandas as pd
 import pytest
 from moments.jobs import JOBS
 from moments.stop import SIGNALS, check, stop
@@ -13,7 +14,7 @@ from mre_core.output import staged
 from rig import Cli, everything_in, run_script
 
 
-@pytest.mark.parametrize("name", JOBS)
+@pytest.mark.parametrize("name", sorted(set(JOBS) - {"trial run, one process"}))
 def test_stopped(name: str, tmp_path: Path) -> None:
     # More of them by `python -m moments 200`.
     draw = random.Random(name)
@@ -23,23 +24,18 @@ def test_stopped(name: str, tmp_path: Path) -> None:
     check(found, tmp_path)
 
 
-@pytest.mark.parametrize("number", SIGNALS)
-def test_a_batch_goes_on(
-    number: signal.Signals, tmp_path: Path, cli: Cli, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_batch_goes_on(tmp_path: Path, cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
     job = JOBS["batch"]
     job.prepare(tmp_path)
-    for moment in (1.0, 2.0):
+    for moment, number in zip((0.8, 1.0), SIGNALS, strict=True):
         check(stop(job.arguments, tmp_path, moment, number), tmp_path)
     monkeypatch.chdir(tmp_path)
-    assert cli(*job.arguments, "--quiet")[0] == 0
-    whole = [*job.arguments[:-1], "never_stopped"]
-    assert cli(*whole, "--quiet")[0] == 0
-    columns = ["item", "seed", "status", "c0", "kw", "rho", "fitness"]
+    for out in ("out", "never_stopped"):
+        assert cli(*job.arguments[:-1], out, "--quiet")[0] == 0
     stopped, never = (mre_core.read_results(tmp_path / out) for out in ("out", "never_stopped"))
-    same = [column for column in columns if column in never]
-    assert stopped[same].equals(never[same])
-    assert len(never) == 12
+    same = [name for name in never if not name.endswith("time") and name != "settings"]
+    pd.testing.assert_frame_equal(stopped[same], never[same])
+    assert (never["status"] == "done").sum() == 8
 
 
 def test_a_signal_waits_for_a_short_piece_of_work() -> None:

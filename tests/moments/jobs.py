@@ -26,7 +26,7 @@ def one(folder: Path) -> None:
 def several(folder: Path) -> None:
     (folder / "in").mkdir()
     device = made_of("bouc_wen", BOUC_WEN)
-    for i in range(12):
+    for i in range(8):
         write_csv(folder / "in" / f"{i}.csv", record(device, motion(rate=200), noise=0.1, seed=i))
 
 
@@ -45,7 +45,7 @@ IDENTIFY = [
     "--seed",
     "1",
 ]
-BATCH = ["batch", "in", "--model", "bouc_wen", "--optimizer", "mafsa", "--iterations", "60", "--seed", "1"]
+BATCH = ["batch", "in", "--model", "sinh", "--optimizer", "mafsa", "--no-figures", "--seed", "1"]
 RUN = ["trial", "run", "trial", "--resume"]
 
 JOBS = {

@@ -42,7 +42,9 @@ def read(path: Path, options: ReadOptions) -> list[Table]:
         with parquet.ParquetFile(path, read_dictionary=texts) as opened:
             check_values(_count(opened.metadata), file)
             table = opened.read()
-    except (arrow.ArrowException, OSError) as error:
+    except InputError:
+        raise
+    except (arrow.ArrowException, OSError, ValueError) as error:  # also names that are no text
         raise InputError(f"cannot be read: {error}", file=file, wanted="a whole Parquet file") from None
     if not table.num_rows:
         raise NoTableError("has no rows", file=file, wanted="rows of numbers")
