@@ -2,13 +2,17 @@
 
 import random
 import signal
+import sys
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import mre_core
 import pandas as pd
 import pytest
 from moments.jobs import JOBS
 from moments.stop import SIGNALS, check, stop
+from mre_core import Recording, StopReason
 from mre_core.interruption import uninterrupted
 from mre_core.output import staged
 from rig import Cli, everything_in, run_script
@@ -41,6 +45,7 @@ def test_a_batch_goes_on(tmp_path: Path, cli: Cli, monkeypatch: pytest.MonkeyPat
 def test_a_signal_waits_for_a_short_piece_of_work() -> None:
     code = """
 import os, signal
+from mre_core import Recording, StopReason
 from mre_core.interruption import sigterm_as_ctrl_c, uninterrupted
 signal.signal(signal.SIGINT, signal.default_int_handler)
 with sigterm_as_ctrl_c():
@@ -91,3 +96,17 @@ def test_in_other_threads_nothing_changes() -> None:
     thread = Thread(target=work)
     thread.start()
     thread.join()
+
+
+def test_a_signal_after_the_swarm_counts(monkeypatch: pytest.MonkeyPatch, sinh_4mm: Recording) -> None:
+    # Ctrl-C while the swarm's result is compared with the exact optimum.
+    module = sys.modules["mre_core.identify"]
+    exact = mre_core.exact
+
+    def stopped(*given: Any, **options: Any) -> mre_core.SwarmResult:
+        return replace(exact(*given, **options), reason=StopReason.INTERRUPTED)
+
+    monkeypatch.setattr(module, "exact", stopped)
+    found = mre_core.identify(sinh_4mm, optimizer="pso", seed=1, max_iterations=2, on_interrupt="return")
+    assert found.interrupted
+    assert found.result.optimum is None

@@ -174,6 +174,8 @@ def _optimise(
     if run.reason in (StopReason.INTERRUPTED, StopReason.CALLBACK):
         return run
     best = exact(problem, **shared)
+    if best.reason is StopReason.INTERRUPTED:  # the swarm has ended, what belongs to it has not
+        return replace(run, reason=best.reason)
     return replace(run, optimum=min(best.fitness, run.fitness))
 
 
