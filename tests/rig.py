@@ -81,6 +81,12 @@ def command(*arguments: str | Path, before: str = "") -> list[str]:
     return [*start, *(str(argument) for argument in arguments)]
 
 
+def without_stages(error: str) -> str:
+    """What a diagnosis says on standard error beside its progress."""
+    lines = error.splitlines(keepends=True)
+    return "".join(line for line in lines if not line.startswith("mre-core: diagnosing: "))
+
+
 def run_process(
     *arguments: str | Path, before: str = "", timeout: float = 120.0
 ) -> subprocess.CompletedProcess[str]:

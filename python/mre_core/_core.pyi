@@ -168,10 +168,15 @@ def diagnose_recordings(
     false_alarm: float,
     seed: int,
     held: Sequence[tuple[float | None, Sequence[float]]] | None = None,
+    held_effects: Sequence[tuple[str, str, Sequence[float], Sequence[float]]] = [],
+    sizes: Mapping[str, Any] | None = None,
     given: Sequence[ArrayLike] | None = None,
     base_effects: Sequence[tuple[str, str, Sequence[float]]] = [],
     without: Sequence[str] = [],
+    blank: int = 0,
     threads: int | None = None,
+    on_stage: Callable[[str], Any] | None = None,
+    on_interrupt: str = "raise",
 ) -> tuple[str, list[NDArray[np.float64]], list[NDArray[np.float64]]]: ...
 def excitation(
     kind: str,

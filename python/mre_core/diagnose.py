@@ -2,9 +2,9 @@
 
 import json
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from numbers import Real
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from ._core import Recording
 from .diagnosis import Diagnosis, History
 from .errors import InputError
 from .findings import (
+    blank_of,
     comparison,
     effect_of,
     hidden_effects,
@@ -29,6 +30,11 @@ from .minimise import draw_seed
 from .model import SIMULATED, Level, Model, simulate
 from .suitable import check_recordings
 from .tested import largest_motion
+
+MOST_BLANKS = 100_000
+"""More say no more about a rate."""
+DONE = "done"
+"""The last stage."""
 
 
 def check_false_alarm(given: object) -> None:
@@ -51,7 +57,10 @@ def diagnose(
     false_alarm: float = 0.01,
     fixed: bool = False,
     without: Sequence[str] = (),
+    blank: int = 0,
     threads: int | None = None,
+    on_stage: Callable[[str], Any] | None = None,
+    on_interrupt: Literal["raise", "return"] = "raise",
 ) -> Diagnosis:
     """Say whether a base model leaves out physics, where, which, and whether that helps on held-out data.
 
@@ -73,8 +82,16 @@ def diagnose(
         Keep the parameters of a given model as they are, and diagnose exactly that model.
     without : sequence of str
         Ids of effects that are ruled out, and not to be named.
+    blank : int
+        Diagnose so many simulations of the fitted base model with its fitted noise as well: how often an
+        effect is named where nothing is missing (`blank` of the result).
     threads : int, optional
         Threads; all cores by default. The result does not depend on them.
+    on_stage : callable, optional
+        Called with what is being done, in words, before each stage; the last is ``"done"``.
+    on_interrupt : {"raise", "return"}
+        What Ctrl-C does: raise KeyboardInterrupt, or return what is known so far, marked `interrupted`.
+        It is raised all the same where the base model is not yet fitted.
 
     Returns
     -------
@@ -91,6 +108,8 @@ def diagnose(
     name = start.name if isinstance(start, Model) else start
     given = start.levels if isinstance(start, Model) and fixed else None
     check_false_alarm(false_alarm)
+    if isinstance(blank, bool) or not isinstance(blank, int | np.integer) or not 0 <= blank <= MOST_BLANKS:
+        raise InputError(f"blank is {blank!r}", wanted=f"a whole number from 0 to {MOST_BLANKS}")
     seed = draw_seed(seed)
     groups = group_by_current(everything)
     places = {id(recording): place for place, recording in enumerate(everything)}
@@ -105,7 +124,10 @@ def diagnose(
         false_alarm=float(false_alarm),
         seed=seed,
         without=_ruled_out(without),
+        blank=int(blank),
         threads=threads,
+        on_stage=on_stage,
+        on_interrupt=on_interrupt,
         **_base(start, everything, fixed=fixed),
     )
     raw = json.loads(text)
@@ -113,8 +135,11 @@ def diagnose(
 
     def model(levels: Any, effects: Any) -> Model:
         found = given or levels_of(symbols, currents, levels)
-        sizes = raw["sizes"] if effects else {}
-        return Model(name, found, largest_motion(everything), tuple(map(effect_of, effects)), sizes)
+        kept = start.effects if given and isinstance(start, Model) else ()
+        all_effects = (*kept, *map(effect_of, effects))
+        return Model(
+            name, found, largest_motion(everything), all_effects, raw["sizes"] if all_effects else {}
+        )
 
     base_model = model(raw["base_levels"], raw["base_effects"])
     if given and isinstance(start, Model):
@@ -130,7 +155,9 @@ def diagnose(
         effects=missing_effects(raw, names, rms_of_force(everything)),
         where=tuple(place_of(place, names) for place in raw["where"]),
         fit=comparison(raw),
-        unknown=unknown_of(raw),
+        unknown=unknown_of(
+            raw, {n: (np.asarray(r.force), f) for n, r, f in zip(names, everything, last, strict=True)}
+        ),
         absorbed_detail=hidden_effects(raw),
         next_test=next_test_of(raw),
         p_values={"base": raw["p_base"], "rest": raw["p_rest"], "effects": dict(raw["candidates"])},
@@ -144,6 +171,8 @@ def diagnose(
             History(label, r.time, r.displacement, r.velocity, np.asarray(r.force), first, second)
             for label, r, first, second in zip(names, everything, before, last, strict=True)
         ),
+        blank=blank_of(raw, float(false_alarm)),
+        interrupted=raw["interrupted"],
     )
 
 
@@ -173,8 +202,8 @@ def _base(start: str | Model, recordings: Sequence[Recording], *, fixed: bool) -
     """Tell what the core needs of the base beside its name."""
     effects = start.effects if isinstance(start, Model) else ()
     simulated = (start.name if isinstance(start, Model) else start) == SIMULATED
-    if effects and (fixed or simulated):
-        raise InputError("the base is kept as it is and has effects", wanted="a model without effects")
+    if effects and simulated:
+        raise InputError("the base is a simulation and has effects", wanted="a model without effects")
     if simulated:
         return {"given": [simulate(Model(SIMULATED, (Level(None, {}),)), r) for r in recordings]}
     if fixed:
@@ -182,5 +211,6 @@ def _base(start: str | Model, recordings: Sequence[Recording], *, fixed: bool) -
             raise InputError(f"the base is '{start}' and fixed", wanted="a model.json, which has parameters")
         for recording in recordings:
             simulate(start, recording)  # says what it cannot follow
-        return {"held": start.given()}
+        kept = {"held_effects": [e.given() for e in effects], "sizes": start.sizes} if effects else {}
+        return {"held": start.given(), **kept}
     return {"base_effects": [(e.id, e.law, e.given()[3]) for e in effects]}

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
+from math import isfinite
 from typing import Any
 
 import numpy as np
@@ -48,7 +49,10 @@ class MissingEffect:
 
 @dataclass(frozen=True)
 class Comparison:
-    """Rms errors in N of the base model and the final one, trained without the held-out data."""
+    """Rms errors in N of the base model and the final one, trained without the held-out data.
+
+    nan where an interruption came before.
+    """
 
     train_rms_before: float
     train_rms_after: float
@@ -84,8 +88,9 @@ class Diagnosis:
     """
 
     base: str
-    verdict: str
-    """``"adequate"``, ``"missing_physics"``, ``"partly_explained"`` or ``"unexplained"``."""
+    verdict: str | None
+    """``"adequate"``, ``"missing_physics"``, ``"partly_explained"`` or ``"unexplained"``; None where an
+    interruption came before."""
     effects: tuple[MissingEffect, ...]
     """By how much each improves the fit of held-out data."""
     where: tuple[Mapping[str, Any], ...]
@@ -107,6 +112,13 @@ class Diagnosis:
     fixed: bool
     seed: int
     histories: tuple[History, ...] = field(compare=False, repr=False)
+    blank: Mapping[str, Any] | None = None
+    """Of simulations of the base model, from which nothing is missing: their `count`, in how many an effect
+    was `named`, the `rate` with its 95 % interval from `low` to `high` beside the `stated` one, in how many
+    a mismatch was found and nothing named (`unexplained`), and how often each effect was named
+    (`by_effect`)."""
+    interrupted: bool = False
+    """True where Ctrl-C ended it early: what was not reached is empty, or nan."""
 
     @property
     def absorbed(self) -> tuple[str, ...]:
@@ -114,7 +126,10 @@ class Diagnosis:
         return tuple(detail["id"] for detail in self.absorbed_detail)
 
     def __str__(self) -> str:
-        return words.verdict(self.verdict, self.base, [e.id for e in self.effects], asdict(self.fit))
+        named = [e.id for e in self.effects]
+        if self.verdict is None or not isfinite(self.fit.held_out_rms_after):
+            return words.broken_off(self.verdict, self.base, named)
+        return words.verdict(self.verdict, self.base, named, asdict(self.fit))
 
     def to_dict(self) -> dict[str, Any]:
         """Content of ``diagnosis.json``."""
@@ -136,8 +151,9 @@ class Diagnosis:
             "absorbed_detail": [dict(detail) for detail in self.absorbed_detail],
             "next_test": None if self.next_test is None else dict(self.next_test),
             "p_values": dict(self.p_values),
+            "blank": None if self.blank is None else dict(self.blank),
             "recordings": list(self.recordings),
             "false_alarm": self.false_alarm,
             "seed": self.seed,
-            "interrupted": False,
+            "interrupted": self.interrupted,
         }

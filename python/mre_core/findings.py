@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _core, words
 from ._core import Recording
@@ -12,6 +13,7 @@ from .diagnosis import Comparison, Estimate, MissingEffect
 from .effects import Effect
 from .model import Level
 
+Series = NDArray[np.float64]
 Raw = Mapping[str, Any]
 """An object of the core's JSON."""
 
@@ -68,8 +70,8 @@ def missing_effects(raw: Raw, names: Sequence[str], force: float) -> tuple[Missi
                 form="approximate" if inexact else "exact",
                 lack_of_fit=raw["lack_of_fit_N"] / force if inexact else 0.0,
                 indistinguishable_from=tuple(effect["indistinguishable_from"]),
-                held_out_rms_before=effect["held_out_rms_before"],
-                held_out_rms_after=effect["held_out_rms_after"],
+                held_out_rms_before=_known(effect["held_out_rms_before"]),
+                held_out_rms_after=_known(effect["held_out_rms_after"]),
             )
         )
     return tuple(found)
@@ -102,14 +104,35 @@ def place_of(raw: Raw, names: Sequence[str]) -> dict[str, Any]:
 
 def comparison(raw: Raw) -> Comparison:
     """Rms errors before and after."""
-    before, after = raw["before"], raw["after"]
+    before, after = raw["before"] or {}, raw["after"] or {}
     return Comparison(
-        train_rms_before=before["train_rms"],
-        train_rms_after=after["train_rms"],
-        held_out_rms_before=before["held_out_rms"],
-        held_out_rms_after=after["held_out_rms"],
-        noise_rms=raw["noise_rms"],
+        train_rms_before=_known(before.get("train_rms")),
+        train_rms_after=_known(after.get("train_rms")),
+        held_out_rms_before=_known(before.get("held_out_rms")),
+        held_out_rms_after=_known(after.get("held_out_rms")),
+        noise_rms=_known(raw["noise_rms"]),
     )
+
+
+def _known(value: float | None) -> float:
+    """Give a number, or nan where an interruption came before it."""
+    return float("nan") if value is None else value
+
+
+def blank_of(raw: Raw, stated: float) -> dict[str, Any] | None:
+    """Give the false-discovery rate of blank campaigns with its 95 % interval (Clopper and Pearson 1934)."""
+    found = raw["blank"]
+    if found is None:
+        return None
+    from scipy.stats import binomtest  # type: ignore[import-untyped]
+
+    count, named = found["count"], found["named"]
+    ends = binomtest(named, count).proportion_ci(0.95, method="exact")
+    return {
+        **{"count": count, "named": named, "rate": named / count},
+        **{"low": float(ends.low), "high": float(ends.high), "stated": stated},
+        **{"unexplained": found["unexplained"], "by_effect": found["by_effect"]},
+    }
 
 
 def hidden_effects(raw: Raw) -> tuple[dict[str, Any], ...]:
@@ -130,15 +153,22 @@ def hidden_effects(raw: Raw) -> tuple[dict[str, Any], ...]:
     )
 
 
-def unknown_of(raw: Raw) -> dict[str, Any] | None:
-    """Describe what an unexplained mismatch depends on, in words too."""
+def unknown_of(raw: Raw, forces: Mapping[str, tuple[Series, Series]]) -> dict[str, Any] | None:
+    """Describe what an unexplained mismatch depends on, in words too.
+
+    `forces` are measured and modelled by recording: their ratio shows which recordings differ.
+    """
     if raw["unknown"] is None:
         return None
-    return {
-        "statement": words.unknown(raw["unknown"], raw["nearest"]),
-        "nearest": raw["nearest"],
-        **raw["unknown"],
-    }
+    found = {**raw["unknown"], "measured_over_model": {n: _ratio(*pair) for n, pair in forces.items()}}
+    return {"statement": words.unknown(found, raw["nearest"]), "nearest": raw["nearest"], **found}
+
+
+def _ratio(measured: Series, model: Series) -> float | None:
+    """Slope of the measured force over the modelled one; None where the model does not move."""
+    spread = model - model.mean()
+    square = float(spread @ spread)
+    return float(measured @ spread) / square if square > 0 else None
 
 
 def next_test_of(raw: Raw) -> dict[str, Any] | None:

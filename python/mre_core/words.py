@@ -32,9 +32,38 @@ def verdict(kind: str, base: str, effects: Sequence[str], fit: Mapping[str, Any]
     }[kind].replace("with it", "with them" if len(effects) > 1 else "with it")
 
 
+def broken_off(kind: str | None, base: str, effects: Sequence[str]) -> str:
+    """Say what stands of a diagnosis that ended before its fit was proved; `kind` is its verdict, if any."""
+    model = "the given simulation" if base == "simulated" else f"the base model {base}"
+    if kind is None:
+        so_far = f"so far {listed(effects)} would be named" if effects else "so far nothing is named"
+        return f"Interrupted before a verdict on {model}: {so_far}, and nothing is proved."
+    stands = {
+        "adequate": "it explains the recordings down to their noise",
+        "missing_physics": f"it leaves out {listed(effects)}",
+        "partly_explained": f"it leaves out {listed(effects)}, and more that nothing known explains",
+        "unexplained": "it misses something that no effect of the catalogue explains",
+    }[kind]
+    return f"Interrupted after the verdict on {model}: {stands}; not yet proved on held-out data."
+
+
+def blank(found: Mapping[str, Any]) -> str:
+    """Say how often something was named where nothing is missing."""
+    low, high = (f"{100 * found[end]:.3g} %" for end in ("low", "high"))
+    times = ", ".join(f"{id} {count}" for id, count in found["by_effect"].items())
+    rate = f"{100 * found['rate']:.3g} %"
+    return (
+        f"In {found['named']} of {found['count']} simulated campaigns from which nothing is missing something"
+        f" was named: {rate} (95 % interval {low} to {high}), where {100 * found['stated']:.3g} % is stated"
+        + (f"; named were {times}." if times else ".")
+    )
+
+
 def effect(plain: str, found: Mapping[str, Any], shows: str | None) -> str:
     """Say in one sentence what was left out, where it shows, and how much it improves."""
     where = f"; this shows most {shows}" if shows else ""
+    if found["held_out_rms_before"] is None:
+        return f"{plain[0].upper()}{plain[1:]}{where}; not yet proved on held-out data."
     return f"{plain[0].upper()}{plain[1:]}{where}; with it {_change(found)}."
 
 
@@ -126,8 +155,20 @@ def unknown(found: Mapping[str, Any], nearest: Sequence[str]) -> str:
         f" The nearest effects of the catalogue, {listed(nearest)}, leave too much of it." if nearest else ""
     )
     return (
-        f"A force of about {_force(found['rms_N'])} rms is unexplained: {on}; over displacement and velocity"
-        f" it is {shape} and {energy}.{told}"
+        f"A force of about {_force(found['rms_N'])} rms over displacement and velocity is unexplained: {on};"
+        f" it is {shape} and {energy}.{_by_recording(found)}{told}"
+    )
+
+
+def _by_recording(found: Mapping[str, Any]) -> str:
+    """Say which recordings differ most, where something does from one to another."""
+    ratios = {name: r for name, r in found.get("measured_over_model", {}).items() if r is not None}
+    if len(ratios) < 2 or "recording" not in {d["on"] for d in found["depends_on"]}:
+        return ""
+    low, high = min(ratios, key=lambda n: ratios[n]), max(ratios, key=lambda n: ratios[n])
+    return (
+        f" Something that is not recorded changes from recording to recording: the measured force is"
+        f" {ratios[low]:.2f} times the model's in '{low}' and {ratios[high]:.2f} times in '{high}'."
     )
 
 

@@ -35,6 +35,13 @@ if TYPE_CHECKING:
 @click.option("--seed", type=WHOLE, help="Same seed, same result.")
 @click.option("--cut", metavar="START:STOP", help="Keep this part of every recording, in s.")
 @click.option("--exclude", metavar="PARTS", help="start_transient, stop_transient or both, with a comma.")
+@click.option(
+    "--blank",
+    type=WHOLE,
+    default=0,
+    metavar="N",
+    help="Also diagnose N simulations of the fitted base model: how often is something named?",
+)
 @click.option("--threads", type=WHOLE, help="Threads; all cores by default.")
 @report_options
 @common_options
@@ -51,7 +58,7 @@ def diagnose(
     name_pattern: str | None,
     reading: tuple[str, ...],
     **options: Any,
-) -> None:
+) -> int:
     """Say what the model MODEL leaves out of RECORDINGS (files or folders): what, where, how much.
 
     \b
@@ -62,25 +69,35 @@ def diagnose(
     """  # noqa: D301  # \b keeps the lines
     from contextlib import nullcontext
 
+    from ..diagnose import DONE
     from ..diagnose import diagnose as run
     from ..output import Stage, staged, to_json
-    from .progress import spinner
+    from .interrupts import interrupts
     from .settings import write_settings
     from .show import print_diagnosis
+    from .stages import stages
 
-    loaded = load_all(recordings, mapping, conditions, name_pattern, reading)
-    loaded = trimmed(loaded, cut, exclude)
-    place = staged(out) if out is not None else nullcontext()
-    with place as stage:
-        with spinner("diagnosing", quiet=quiet):
-            found = run(loaded, base, **options)
-        if isinstance(stage, Stage) and out is not None:
-            write_settings(stage, out, seed=found.seed)
-            _write(stage, found)
-    if as_json:
-        click.echo(to_json(found.to_dict()), nl=False)
-    elif not quiet:
-        print_diagnosis(found)
+    with interrupts() as signals:
+        loaded = load_all(recordings, mapping, conditions, name_pattern, reading)
+        loaded = trimmed(loaded, cut, exclude)
+        place = staged(out) if out is not None else nullcontext()
+        with place as stage:
+            with stages("diagnosing", quiet=quiet) as show:
+                found = run(
+                    loaded,
+                    base,
+                    on_stage=lambda now: signals.done() if now == DONE else show(now),
+                    on_interrupt="return",
+                    **options,
+                )
+            if isinstance(stage, Stage) and out is not None:
+                write_settings(stage, out, seed=found.seed)
+                _write(stage, found)
+        if as_json:
+            click.echo(to_json(found.to_dict()), nl=False)
+        elif not quiet:
+            print_diagnosis(found)
+    return 130 if found.interrupted else 0
 
 
 def _write(stage: "Stage", found: "Diagnosis") -> None:

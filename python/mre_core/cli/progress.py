@@ -81,7 +81,7 @@ def counter(what: str, *, quiet: bool) -> Iterator[OnItems]:
         bar.update(task, completed=done + failed, total=count, note=note)
         if not quiet and not err.is_terminal and time.monotonic() - said >= EVERY:
             said = time.monotonic()
-            _say(f"{what}: {note}")
+            say(f"{what}: {note}")
 
     with bar:
         yield on_items
@@ -176,7 +176,7 @@ def _lines(iterations: int) -> tuple[OnLevel, OnProgress]:
         said = now
         left = (now - began) / max(iteration, 1) * (iterations - iteration)
         note = _note(evaluations, best, now - began)
-        _say(f"{title}: iteration {iteration} of {iterations}, {note}, about {max(left, 0):.0f} s left")
+        say(f"{title}: iteration {iteration} of {iterations}, {note}, about {max(left, 0):.0f} s left")
 
     return on_level, on_progress
 
@@ -190,7 +190,7 @@ def _heartbeat(what: str) -> Iterator[None]:
         wait, passed = EVERY, 0.0
         while not done.wait(wait):
             passed += wait
-            _say(f"{what} for {passed:.0f} s")
+            say(f"{what} for {passed:.0f} s")
             wait = max(passed, EVERY)
 
     thread = threading.Thread(target=beat, daemon=True)
@@ -212,5 +212,6 @@ def _note(evaluations: int, best: float, seconds: float) -> str:
     return f"{evaluations} evaluations, {rate:.3g} a second, rms {best**0.5:.4g} N"
 
 
-def _say(text: str) -> None:
+def say(text: str) -> None:
+    """Write a line to standard error."""
     print(f"mre-core: {text}", file=sys.stderr, flush=True)

@@ -1,6 +1,7 @@
 """What a person sees: tables on standard output."""
 
 from collections.abc import Sequence
+from math import isfinite
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -27,20 +28,20 @@ def print_diagnosis(found: "Diagnosis") -> None:
     """Verdict, effects with their parameters, where, and the fit."""
     from rich.table import Table
 
-    from ..words import interval
+    from .. import words
     from .escape import escape
 
     out = console()
-    out.print(f"[bold]{found.verdict}[/bold]: {escape(str(found))}")
+    out.print(f"[bold]{found.verdict or 'interrupted'}[/bold]: {escape(str(found))}")
     if found.effects:
         table = Table(title="effects", title_justify="left")
         for column in ("effect", "law", "parameter", "value", "95 % interval", "unit", "held-out rms / N"):
             table.add_column(column, justify="right" if column == "value" else "left")
         for effect in found.effects:
-            gain = f"{effect.held_out_rms_before:.4g} to {effect.held_out_rms_after:.4g}"
+            gain = _change(effect.held_out_rms_before, effect.held_out_rms_after)
             first = (effect.id, effect.law, gain)
             for name, p in list(effect.parameters.items())[:_MOST]:
-                span = interval(p.low, p.high)
+                span = words.interval(p.low, p.high)
                 table.add_row(*first[:2], escape(name), f"{p.value:.5g}", span, p.unit, first[2])
                 first = ("", "", "")
             if (more := len(effect.parameters) - _MOST) > 0:
@@ -57,14 +58,30 @@ def print_diagnosis(found: "Diagnosis") -> None:
         out.print(f"where: {escape(place['what'])}")
     if found.absorbed:
         out.print(f"these recordings would hide: {', '.join(found.absorbed)}")
+    _print_comparison(found, out)
+    if found.blank is not None:
+        out.print(words.blank(found.blank))
+
+
+def _change(before: float, after: float) -> str:
+    """Say two rms errors, which are nan where an interruption came before."""
+    return f"{before:.4g} to {after:.4g}" if isfinite(before) else ""
+
+
+def _print_comparison(found: "Diagnosis", out: "Console") -> None:
+    from rich.table import Table
+
     fit = found.fit
-    table = Table(title="rms error / N", title_justify="left")
-    for column in ("", "before", "after"):
-        table.add_column(column, justify="right" if column else "left")
-    table.add_row("trained on", f"{fit.train_rms_before:.4g}", f"{fit.train_rms_after:.4g}")
-    table.add_row("held out", f"{fit.held_out_rms_before:.4g}", f"{fit.held_out_rms_after:.4g}")
-    out.print(table)
-    out.print(f"noise {fit.noise_rms:.4g} N, false-alarm rate {found.false_alarm:g}, seed {found.seed}")
+    if isfinite(fit.held_out_rms_after):
+        table = Table(title="rms error / N", title_justify="left")
+        for column in ("", "before", "after"):
+            table.add_column(column, justify="right" if column else "left")
+        table.add_row("trained on", f"{fit.train_rms_before:.4g}", f"{fit.train_rms_after:.4g}")
+        table.add_row("held out", f"{fit.held_out_rms_before:.4g}", f"{fit.held_out_rms_after:.4g}")
+        out.print(table)
+    noise = f"noise {fit.noise_rms:.4g} N, " if isfinite(fit.noise_rms) else ""
+    ended = ", interrupted" if found.interrupted else ""
+    out.print(f"{noise}false-alarm rate {found.false_alarm:g}, seed {found.seed}{ended}")
 
 
 def print_identification(

@@ -2,6 +2,7 @@
 
 from typing import TYPE_CHECKING, Any
 
+from .. import words
 from ..output import finite
 from .chart import Chart, chart, curves_in
 from .page import render
@@ -21,6 +22,7 @@ _SHOWN = {
         "false_alarm",
         "seed",
         "interrupted",
+        "blank",
     ),
 }
 """Fields of ``diagnosis.json`` that have a place of their own on the page."""
@@ -56,12 +58,13 @@ def report_diagnosis(found: "Diagnosis") -> str:
     ]
     return render(
         "diagnosis.html",
-        title=f"Diagnosis of {found.base}: {_NAMES.get(found.verdict, found.verdict)}",
-        verdict_name=_NAMES.get(found.verdict, found.verdict),
+        title=f"Diagnosis of {found.base}: {_name(found.verdict)}",
+        verdict_name=_name(found.verdict),
         d=content,
         where=content.get("where", []),
         strongest=max((float(place.get("strength", 0)) for place in found.where), default=1.0) or 1.0,
         unexplained=_unexplained(content.get("unknown")),
+        blank=words.blank(found.blank) if found.blank else None,
         further=further,
         charts={key: curves_in(value) for key, value in further.items()},
         fits=[(s.name, *(rms(s.measured - force) for force in s.models.values())) for s in series],
@@ -69,6 +72,10 @@ def report_diagnosis(found: "Diagnosis") -> str:
         result=content,
         result_name="diagnosis.json",
     )
+
+
+def _name(verdict: str | None) -> str:
+    return "interrupted" if verdict is None else _NAMES.get(verdict, verdict)
 
 
 def _unexplained(unknown: Any) -> Chart | None:

@@ -7,6 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
+use mre::diagnose::{self, Stage};
 use mre::swarm::{Monitor, Progress};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
@@ -19,7 +20,7 @@ const POLL: Duration = Duration::from_millis(50);
 #[derive(Default)]
 pub(crate) struct Link {
     cancel: AtomicBool,
-    progress: Mutex<Option<Progress>>,
+    news: Mutex<Vec<News>>,
 }
 
 impl Link {
@@ -28,8 +29,8 @@ impl Link {
         &self.cancel
     }
 
-    fn take(&self) -> Option<Progress> {
-        self.progress.lock().ok().and_then(|mut latest| latest.take())
+    fn take(&self) -> Vec<News> {
+        self.news.lock().map(|mut news| std::mem::take(&mut *news)).unwrap_or_default()
     }
 }
 
@@ -39,10 +40,41 @@ impl Monitor for &Link {
     }
 
     fn go_on(&mut self, progress: Progress) -> bool {
-        if let Ok(mut latest) = self.progress.lock() {
-            *latest = Some(progress);
+        if let Ok(mut news) = self.news.lock() {
+            // Only the latest matters.
+            *news = vec![News::Progress(progress)];
         }
         !self.broken_off()
+    }
+}
+
+impl diagnose::Monitor for Link {
+    fn broken_off(&self) -> bool {
+        self.cancel.load(Ordering::Relaxed)
+    }
+
+    fn begins(&self, stage: Stage) {
+        if let Ok(mut news) = self.news.lock() {
+            news.push(News::Stage(stage));
+        }
+    }
+}
+
+/// What a job tells a callback.
+pub(crate) enum News {
+    /// After an iteration: `(iteration, evaluations, best)`; something true asks to stop.
+    Progress(Progress),
+    /// When a stage of a diagnosis begins: what it does, in words.
+    Stage(Stage),
+}
+
+impl News {
+    /// Call the callback. True when it asks to stop.
+    pub(crate) fn tell(&self, py: Python<'_>, callback: &Py<PyAny>) -> PyResult<bool> {
+        match self {
+            Self::Progress(p) => callback.call1(py, (p.iteration, p.evaluations, p.best))?.is_truthy(py),
+            Self::Stage(stage) => callback.call1(py, (stage.to_string(),)).map(|_| false),
+        }
     }
 }
 
@@ -135,15 +167,13 @@ pub(crate) fn in_pool<R: Send>(
 /// Signals, then news for the callback. True when the callback asks to stop.
 fn attend(py: Python<'_>, link: &Link, callback: Option<&Py<PyAny>>) -> PyResult<bool> {
     py.check_signals()?;
-    match (callback, link.take()) {
-        (Some(callback), Some(progress)) => call(py, callback, progress),
-        _ => Ok(false),
+    let Some(callback) = callback else { return Ok(false) };
+    for news in link.take() {
+        if news.tell(py, callback)? {
+            return Ok(true);
+        }
     }
-}
-
-/// Tell the callback `(iteration, evaluations, best)`. True when it asks to stop.
-pub(crate) fn call(py: Python<'_>, callback: &Py<PyAny>, progress: Progress) -> PyResult<bool> {
-    callback.call1(py, (progress.iteration, progress.evaluations, progress.best))?.is_truthy(py)
+    Ok(false)
 }
 
 /// "raise" or "return".

@@ -5,7 +5,7 @@ use std::cell::RefCell;
 use mre::swarm::{Monitor, Progress};
 use pyo3::prelude::*;
 
-use crate::run::{Ended, call};
+use crate::run::{Ended, News};
 
 /// Watches a run on a Python function, on the thread that runs it.
 pub(crate) struct Watch<'a, 'py> {
@@ -24,7 +24,7 @@ impl Monitor for Watch<'_, '_> {
         if self.broken_off() {
             return false;
         }
-        match self.callback.map_or(Ok(false), |callback| call(self.py, callback, progress)) {
+        match self.callback.map_or(Ok(false), |callback| News::Progress(progress).tell(self.py, callback)) {
             Ok(false) => return true,
             Ok(true) => self.ended = Ended::ByCallback,
             Err(error) => *self.failure.borrow_mut() = Some(error),

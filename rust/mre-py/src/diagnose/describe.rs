@@ -1,39 +1,58 @@
 //! A diagnosis as JSON.
 
 use mre::assembly::{Assembly, Base};
-use mre::diagnose::{self, Diagnosis, Estimate, Estimates, NextTest, On, Place, Proof, Prospect, Unknown};
+use mre::diagnose::{
+    self, Blank, Diagnosis, Estimate, Estimates, NextTest, On, Place, Proof, Prospect, Unknown,
+};
 use mre::effect::Effect;
 use serde_json::{Value, json};
 
-pub(super) fn describe(found: &Diagnosis, base: &Base, own: usize) -> Value {
-    let evidence = &found.evidence;
+/// `own` effects belong to the base; `blanks` is what came of so many blank campaigns as were `wanted`.
+pub(super) fn describe(
+    found: &Diagnosis,
+    base: &Base,
+    own: usize,
+    blanks: Option<&Blank>,
+    wanted: usize,
+) -> Value {
+    let judgement = found.judgement.as_ref();
+    let evidence = judgement.map(|j| j.evidence);
+    let proofs = found.proofs.as_ref();
     let begun = &found.base.assembly;
     let of_base = |assembly: &Assembly, estimates: &Estimates| -> Vec<Value> {
         (0..own).map(|place| law(assembly, estimates, place)).collect()
     };
     json!({
-        "verdict": found.verdict.id(),
+        "verdict": judgement.map(|j| j.verdict.id()),
         "effects": found.effects.iter().map(|e| effect(found, e)).collect::<Vec<_>>(),
         "where": found.places.iter().map(|f| place(&f.place, f.strength)).collect::<Vec<_>>(),
         "base_levels": levels(base, &found.base_estimates),
         "final_levels": levels(base, &found.estimates),
         "base_effects": of_base(begun, &found.base_estimates),
         "final_base_effects": of_base(&found.named.assembly, &found.estimates),
-        "before": proof(&found.before),
-        "after": proof(&found.after),
-        "noise_rms": found.noise_rms,
-        "p_base": evidence.p_base,
-        "p_rest": evidence.p_rest,
-        "rest_share": evidence.share,
-        "lack_of_fit_N": evidence.lack_of_fit,
-        "approximate": evidence.approximate(),
+        "before": proofs.map(|p| proof(&p.0)),
+        "after": proofs.map(|p| proof(&p.1)),
+        "noise_rms": judgement.map(|j| j.noise_rms),
+        "p_base": evidence.map(|e| e.p_base),
+        "p_rest": evidence.map(|e| e.p_rest),
+        "rest_share": evidence.map(|e| e.share),
+        "lack_of_fit_N": evidence.map(|e| e.lack_of_fit),
+        "approximate": evidence.is_some_and(|e| e.approximate()),
         "candidates": diagnose::beside(&found.named.scores),
         "absorbed": found.absorbed.iter().map(absorbed).collect::<Vec<_>>(),
         "unknown": found.unknown.as_ref().map(unknown),
         "nearest": found.nearest,
         "next_test": found.next_test.as_ref().map(next_test),
         "sizes": sizes(found),
+        "blank": blanks.filter(|b| b.count > 0).map(blank),
+        "interrupted": found.broken_off || blanks.is_some_and(|b| b.count < wanted),
     })
+}
+
+fn blank(b: &Blank) -> Value {
+    let by_effect: serde_json::Map<String, Value> =
+        b.by_effect.iter().map(|(id, times)| ((*id).to_owned(), json!(times))).collect();
+    json!({"count": b.count, "named": b.named, "unexplained": b.unexplained, "by_effect": by_effect})
 }
 
 /// What an unexplained mismatch depends on, and its map.
@@ -110,8 +129,8 @@ fn effect(found: &Diagnosis, named: &diagnose::Effect) -> Value {
     let mut row = law(&found.named.assembly, &found.estimates, named.place);
     row["p_value"] = json!(named.p_value);
     row["indistinguishable_from"] = json!(named.rivals);
-    row["held_out_rms_before"] = json!(named.held_out_before);
-    row["held_out_rms_after"] = json!(named.held_out_after);
+    row["held_out_rms_before"] = json!(named.held_out.map(|h| h.before));
+    row["held_out_rms_after"] = json!(named.held_out.map(|h| h.after));
     row
 }
 

@@ -2,17 +2,19 @@
 
 mod describe;
 
-use mre::assembly::{Base, Campaign};
-use mre::diagnose::{self, KINDS, Limits, Settings};
+use mre::assembly::{Base, Campaign, Kept};
+use mre::diagnose::{self, KINDS, Limits, Monitor, Settings, Stage};
 use mre::error::{Error, Result};
 use numpy::PyArray1;
+use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
+use pyo3::types::PyMapping;
 
 use crate::device::{self, Levels};
-use crate::effects::law_of;
+use crate::effects::{self, Given, law_of};
 use crate::error::to_python;
 use crate::recording::Recording;
-use crate::run::in_pool;
+use crate::run::{in_pool, raises};
 
 type Forces<'py> = Vec<Bound<'py, PyArray1<f64>>>;
 
@@ -20,10 +22,12 @@ type Forces<'py> = Vec<Bound<'py, PyArray1<f64>>>;
 ///
 /// `groups` are the places of recordings that share parameters of the model. Where `held` has levels, the
 /// model keeps them; where `given` has a force for every recording, that force is the base instead of the
-/// model. `base_effects` are `(id, law, shapes to start from)` of effects that belong to the base,
-/// `without` ids of effects that are ruled out.
+/// model; `held_effects` as for a simulation, with their `sizes`, are kept with them. `base_effects` are `(id, law, shapes to start from)` of effects that belong to the base,
+/// `without` ids of effects that are ruled out. So many
+/// `blank` campaigns are diagnosed after that. `on_stage` is called with each stage in words. Where Ctrl-C
+/// ends it and is not to be raised, what is known by then is returned; it is raised where that is nothing.
 #[pyfunction]
-#[pyo3(signature = (recordings, model, groups, *, false_alarm, seed, held=None, given=None, base_effects=Vec::new(), without=Vec::new(), threads=None))]
+#[pyo3(signature = (recordings, model, groups, *, false_alarm, seed, held=None, held_effects=Vec::new(), sizes=None, given=None, base_effects=Vec::new(), without=Vec::new(), blank=0, threads=None, on_stage=None, on_interrupt="raise"))]
 #[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)]
 pub(crate) fn diagnose_recordings<'py>(
     py: Python<'py>,
@@ -33,28 +37,57 @@ pub(crate) fn diagnose_recordings<'py>(
     false_alarm: f64,
     seed: u64,
     held: Option<Levels>,
+    held_effects: Vec<Given>,
+    sizes: Option<Bound<'py, PyMapping>>,
     given: Option<Vec<Vec<f64>>>,
     base_effects: Vec<(String, String, Vec<f64>)>,
     without: Vec<String>,
+    blank: usize,
     threads: Option<i64>,
+    on_stage: Option<Py<PyAny>>,
+    on_interrupt: &str,
 ) -> PyResult<(String, Forces<'py>, Forces<'py>)> {
     let recordings: Vec<_> = recordings.into_iter().map(|r| r.inner).collect();
     let held = held.map(|levels| device::device(model, levels)).transpose()?;
+    let kept = held_effects.into_iter().map(effects::addition).collect::<PyResult<Vec<_>>>()?;
+    let sizes = sizes.map(|sizes| effects::sizes(&sizes)).transpose()?;
     let own = base_effects
         .into_iter()
         .map(|(id, law, shapes)| Ok((law_of(&id, &law)?, shapes)))
         .collect::<PyResult<Vec<_>>>()?;
-    let (result, _) = in_pool(py, threads, None, true, |_| -> Result<(String, Histories, Histories)> {
-        let campaign = Campaign::new(recordings.clone())?;
-        let base = match (held, given) {
-            (Some(device), _) => Base::Held(device),
-            (None, Some(force)) => Base::Given(force),
-            (None, None) => Base::fitted(&recordings, model, &groups)?,
-        };
-        let found = diagnose::run(&campaign, &base, &own, &Settings::new(false_alarm, seed, &without));
-        Ok((describe::describe(&found, &base, own.len()).to_string(), found.base_force, found.final_force))
-    })?;
-    let (text, base, last) = result.map_err(to_python)?;
+    let raise = raises(on_interrupt)?;
+    let (result, _) = in_pool(
+        py,
+        threads,
+        on_stage.as_ref(),
+        raise,
+        |link| -> Result<Option<(String, Histories, Histories)>> {
+            let mut campaign = Campaign::new(recordings.clone())?;
+            if let Some(sizes) = &sizes {
+                // Effects of one model have one set of sizes.
+                campaign = campaign.sized(sizes.clone());
+            }
+            let base = match (held, given) {
+                (Some(device), _) => Base::Held(match sizes {
+                    Some(sizes) => Kept::with_effects(device, kept, sizes),
+                    None => Kept::new(device),
+                }),
+                (None, Some(force)) => Base::Given(force),
+                (None, None) => Base::fitted(&recordings, model, &groups)?,
+            };
+            let settings = Settings::new(false_alarm, seed, &without);
+            let Some(found) = diagnose::run(&campaign, &base, &own, &settings, link) else { return Ok(None) };
+            let blanks = match blank {
+                0 => None,
+                count => Some(diagnose::blank(&found, &base, &own, &settings, count, link)?),
+            };
+            link.begins(Stage::Done);
+            let text = describe::describe(&found, &base, own.len(), blanks.as_ref(), blank).to_string();
+            Ok(Some((text, found.base_force, found.final_force)))
+        },
+    )?;
+    let found = result.map_err(to_python)?;
+    let (text, base, last) = found.ok_or_else(|| PyKeyboardInterrupt::new_err(()))?;
     let arrays = |forces: Histories| forces.into_iter().map(|force| PyArray1::from_vec(py, force)).collect();
     Ok((text, arrays(base), arrays(last)))
 }

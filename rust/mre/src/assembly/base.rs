@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::device::Device;
+use super::kept::Kept;
 use crate::error::Result;
 use crate::fitness::{Problem, Weights};
 use crate::model::Model;
@@ -27,7 +27,7 @@ pub enum Base {
     /// A model that is fitted, in groups that share parameters.
     Fitted(Vec<Group>),
     /// A device whose parameters are kept as they are.
-    Held(Device),
+    Held(Kept),
     /// A force in N for every recording, such as a user's own simulation.
     Given(Vec<Vec<f64>>),
 }

@@ -59,6 +59,12 @@ impl Campaign {
         Self { recordings, accelerations, currents, before, sizes }
     }
 
+    /// The same with other sizes.
+    #[must_use]
+    pub fn sized(self, sizes: Sizes) -> Self {
+        Self { sizes, ..self }
+    }
+
     /// The recordings.
     pub fn recordings(&self) -> &[Arc<Recording>] {
         &self.recordings

@@ -204,10 +204,10 @@ impl Assembly<'_> {
             BaseColumns { columns, places: Vec::new(), parts }
         };
         match self.base {
-            Base::Held(device) => jobs
+            Base::Held(kept) => jobs
                 .par_iter()
                 // A device that cannot be simulated with what an effect lets it see.
-                .map(|(.., seen)| fixed(device.parts(seen).unwrap_or_default()))
+                .map(|(.., seen)| fixed(kept.parts(seen).unwrap_or_default()))
                 .collect(),
             Base::Given(force) => {
                 jobs.iter().map(|(r, ..)| fixed(vec![(Part::Stiffness, force[*r].clone())])).collect()

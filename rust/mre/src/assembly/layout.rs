@@ -191,6 +191,9 @@ impl<'a> Assembly<'a> {
         let alone = self.with(Vec::new());
         let shapes = alone.physical(&unit[..alone.base_shapes()]);
         let own = &coefficients[..alone.base_coefficients()];
+        if let Base::Held(kept) = self.base {
+            return self.campaign.recordings().iter().map(|r| kept.alone(r)).collect();
+        }
         (0..self.campaign.recordings().len()).map(|r| alone.columns(r, &shapes).force(own)).collect()
     }
 }

@@ -4,11 +4,13 @@
 mod base;
 mod campaign;
 mod columns;
+mod kept;
 mod layout;
 mod simulate;
 
 pub use base::Base;
 pub use campaign::Campaign;
 pub use columns::Columns;
+pub use kept::Kept;
 pub use layout::Assembly;
 pub use simulate::{Addition, simulate};

@@ -23,6 +23,12 @@ pub struct Addition {
     pub shape: Vec<f64>,
 }
 
+impl std::fmt::Debug for Addition {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} {:?} {:?}", self.effect.about().law, self.coefficients, self.shape)
+    }
+}
+
 /// Restoring force in N of a device with effects at every sample of a recording.
 ///
 /// `sizes` are those of the recordings that the effects were fitted to.

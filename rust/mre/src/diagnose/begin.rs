@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use super::candidates::noise_left;
 use super::least_squares::{Data, Fitted, refine, refine_at_most};
+use super::monitor::Monitor;
 use super::noise::Noise;
 use super::normal::Rows;
 use crate::assembly::{Assembly, Base, Campaign};
@@ -32,7 +33,13 @@ pub(super) struct Begun<'a> {
 ///
 /// Where a recording starts in motion, the remainders of its unknown initial states are one of them; where
 /// the force is measured in steps, their saw tooth is.
-pub(super) fn begin<'a>(campaign: &'a Campaign, base: &'a Base, given: &[Given], rows: &[Rows]) -> Begun<'a> {
+pub(super) fn begin<'a>(
+    campaign: &'a Campaign,
+    base: &'a Base,
+    given: &[Given],
+    rows: &[Rows],
+    monitor: &dyn Monitor,
+) -> Begun<'a> {
     let count = campaign.recordings().len();
     let nothing = campaign.recordings().iter().map(|r| vec![0.0; r.len()]).collect();
     let mut effects: Vec<&'static dyn Effect> = given.iter().map(|(effect, _)| *effect).collect();
@@ -45,7 +52,7 @@ pub(super) fn begin<'a>(campaign: &'a Campaign, base: &'a Base, given: &[Given],
     let shapes: Vec<f64> = given.iter().flat_map(|(_, shape)| shape.clone()).collect();
     let assembly = Assembly::new(campaign, base, effects, Arc::new(nothing));
     let white = Noise::white(count, 0.01 * campaign.sizes().force);
-    let data = Data { noise: &white, rows };
+    let data = Data { noise: &white, rows, monitor };
     let known = assembly.base_shapes();
     let mut all = vec![0.0; known];
     all.extend(shapes);
@@ -59,7 +66,7 @@ pub(super) fn begin<'a>(campaign: &'a Campaign, base: &'a Base, given: &[Given],
         .map_or_else(Vec::new, |fit| fit.unit);
     let coarse = refine(&assembly, data, &first);
     let noise = noise_left(&assembly, data, &coarse);
-    let data = Data { noise: &noise, rows };
+    let data = Data { noise: &noise, rows, monitor };
     let fitted = refine(&assembly, data, &coarse.unit);
     let force = assembly.base_force(&fitted.unit, &fitted.coefficients);
     let assembly = assembly.referring_to(force);

@@ -8,10 +8,12 @@ use super::drift;
 use super::held::Held;
 use super::least_squares::{Data, Fitted, forces, refine, refine_at_most};
 use super::noise::Noise;
+use super::plain_mismatch;
 use super::screen::{Null, Score};
 use super::settings::Settings;
 use crate::assembly::Assembly;
 use crate::effect::{CATALOGUE, Effect};
+use crate::recording::Recording;
 
 /// The best of them are also fitted from other shapes of the base.
 const UNBENT: usize = 2;
@@ -47,6 +49,11 @@ impl Candidate<'_> {
         self.fitted.coefficients.len() + self.fitted.unit.len()
     }
 
+    /// Id of the last effect.
+    pub(super) fn added(&self) -> Option<&'static str> {
+        self.assembly.effects().last().map(|e| e.about().effect)
+    }
+
     /// Place of the last law in the catalogue.
     fn place(&self) -> usize {
         let last = self.assembly.effects().last().map(|e| e.about());
@@ -59,22 +66,26 @@ pub(super) fn steps(assembly: &Assembly) -> Vec<f64> {
     assembly.campaign().recordings().iter().map(|r| 1.0 / r.sampling_rate()).collect()
 }
 
-/// Residuals in N of a fit.
+/// Residuals in N of a fit, of the samples that are scored.
 pub(super) fn residuals(assembly: &Assembly, data: Data, fitted: &Fitted) -> Vec<Vec<f64>> {
     let recordings = assembly.campaign().recordings().iter();
-    recordings
-        .zip(forces(assembly, data, fitted))
-        .map(|(r, force)| {
-            let measured = r.force().unwrap_or_default();
-            measured.iter().zip(force).map(|(f, model)| f - model).collect()
-        })
-        .collect()
+    recordings.zip(forces(assembly, data, fitted)).map(|(r, force)| of_the_scored(r, &force)).collect()
 }
 
-/// The noise that a fit leaves.
+/// Measured less modelled force in N, of the samples that are scored.
+pub(super) fn of_the_scored(recording: &Recording, force: &[f64]) -> Vec<f64> {
+    let measured = recording.force().unwrap_or_default().iter();
+    measured.zip(force).map(|(f, model)| f - model).collect::<Vec<_>>()[recording.scored()].to_vec()
+}
+
+/// The noise that a fit leaves: all of its residual, unless that is plainly a mismatch.
 pub(super) fn noise_left(assembly: &Assembly, data: Data, fitted: &Fitted) -> Noise {
     let freedom = fitted.coefficients.len() + fitted.unit.len();
-    Noise::of(&residuals(assembly, data, fitted), &steps(assembly), freedom)
+    let left = residuals(assembly, data, fitted);
+    match plain_mismatch::find(assembly, &left, data.noise) {
+        Some(size) => Noise::beside_a_mismatch(left.len(), size),
+        None => Noise::of(&left, &steps(assembly), freedom),
+    }
 }
 
 /// Scores of every law beside a fitted model.

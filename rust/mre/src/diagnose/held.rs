@@ -48,12 +48,15 @@ impl Null<'_> {
             joint.physical(&all).split_off(base.len())
         };
         let stay = |gain: f64| Held { score, shape: score.start.clone(), gain };
-        if unit.is_empty() {
+        if unit.is_empty() || self.broken_off() {
             return stay(score.gain);
         }
         let mut here = self.local(&joint, score, &unit, &physical);
         let mut damping = 1e-3;
         for _ in 0..MOST {
+            if self.broken_off() {
+                break;
+            }
             let ridge = Ridge { coefficients: RIDGE, shapes: RIDGE + damping };
             let (step, promise) = step(&here.gram, &here.right, ridge, &unit);
             if promise < LEAST_GAIN {

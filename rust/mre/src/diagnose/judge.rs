@@ -4,6 +4,7 @@ use super::begin::Begun;
 use super::candidates::{Candidate, fit};
 use super::least_squares::{Data, Fitted, forces, refine};
 use super::missing::{Generic, Mismatch};
+use super::monitor::Monitor;
 use super::normal::Rows;
 use super::screen::Null;
 use super::search::{Named, rms};
@@ -28,20 +29,27 @@ pub(super) fn judge<'a>(
     (named, first): (Named<'a>, Option<Named<'a>>),
     rows: &[Rows],
     false_alarm: f64,
+    monitor: &dyn Monitor,
 ) -> Judged<'a> {
-    let judged = alone(begun, named, rows, false_alarm);
+    let judged = alone(begun, named, rows, false_alarm, monitor);
     match first {
         Some(first) if judged.verdict == Verdict::Unexplained => {
-            let simpler = alone(begun, first, rows, false_alarm);
+            let simpler = alone(begun, first, rows, false_alarm, monitor);
             if simpler.verdict == Verdict::Unexplained { judged } else { simpler }
         }
         _ => judged,
     }
 }
 
-fn alone<'a>(begun: &Begun<'a>, mut named: Named<'a>, rows: &[Rows], false_alarm: f64) -> Judged<'a> {
-    settle_reference(&mut named, rows);
-    let data = Data { noise: &named.noise, rows };
+fn alone<'a>(
+    begun: &Begun<'a>,
+    mut named: Named<'a>,
+    rows: &[Rows],
+    false_alarm: f64,
+    monitor: &dyn Monitor,
+) -> Judged<'a> {
+    settle_reference(&mut named, rows, monitor);
+    let data = Data { noise: &named.noise, rows, monitor };
     let base = refine(&begun.assembly, data, &begun.fitted.unit);
     let mismatch = |assembly: &Assembly, fitted: &Fitted| {
         let null = Null::new(assembly, data, &fitted.unit);
@@ -57,12 +65,12 @@ fn alone<'a>(begun: &Begun<'a>, mut named: Named<'a>, rows: &[Rows], false_alarm
 }
 
 /// Effects refer to the force of the base as it is in the joint model, as a simulation will have it.
-fn settle_reference(named: &mut Named, rows: &[Rows]) {
+pub(super) fn settle_reference(named: &mut Named, rows: &[Rows], monitor: &dyn Monitor) {
     if named.assembly.effects().is_empty() {
         return;
     }
     for _ in 0..3 {
-        let data = Data { noise: &named.noise, rows };
+        let data = Data { noise: &named.noise, rows, monitor };
         let force = named.assembly.base_force(&named.fitted.unit, &named.fitted.coefficients);
         named.assembly = named.assembly.referring_to(force);
         let Candidate { assembly, fitted } = fit(named.assembly.clone(), data, &named.fitted.unit);

@@ -4,6 +4,7 @@
 use rayon::prelude::*;
 
 use super::bounded;
+use super::monitor::Monitor;
 use super::noise::Noise;
 use super::normal::{Normal, Rows, whitened};
 use super::step::{Ridge, step};
@@ -31,12 +32,14 @@ pub struct Fitted {
 }
 
 /// What a fit is made on.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub(super) struct Data<'a> {
     /// Noise of the recordings.
     pub(super) noise: &'a Noise,
     /// Samples that count, by recording.
     pub(super) rows: &'a [Rows],
+    /// Whether to go on.
+    pub(super) monitor: &'a dyn Monitor,
 }
 
 /// Descend from a point of the unit box.
@@ -53,6 +56,9 @@ pub(super) fn refine_at_most(assembly: &Assembly, data: Data, start: &[f64], mos
     let mut damping = 1e-3;
     let mut full = None;
     for _ in 0..most {
+        if data.monitor.broken_off() {
+            break;
+        }
         let system = full.get_or_insert_with(|| here.with_tangents(assembly, data));
         let ridge = Ridge { coefficients: 1e-12, shapes: damping };
         let (step, promise) = step(&system.gram, &system.right, ridge, &here.fitted.unit);

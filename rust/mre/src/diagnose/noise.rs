@@ -30,6 +30,8 @@ const SAME_RATE: f64 = 0.01;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Noise {
     filters: Vec<Filter>,
+    /// True where a mismatch is so large that the noise cannot be told from it.
+    hidden: bool,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -70,13 +72,23 @@ impl Noise {
                 filters[*s] = Some(Filter::of(&residuals[*s], steps[*s], choice.coefficients.clone(), used));
             }
         }
-        Self { filters: filters.into_iter().flatten().collect() }
+        Self { filters: filters.into_iter().flatten().collect(), hidden: false }
     }
 
-    /// White noise of one size in all recordings.
+    /// White noise of one size in N in all recordings.
     pub fn white(recordings: usize, deviation: f64) -> Self {
         let filter = Filter { coefficients: Vec::new(), scale: 1.0 / deviation };
-        Self { filters: vec![filter; recordings] }
+        Self { filters: vec![filter; recordings], hidden: false }
+    }
+
+    /// Noise that a plain mismatch hides: fits then make the rms error of the force smallest.
+    pub(super) fn beside_a_mismatch(recordings: usize, size: f64) -> Self {
+        Self { hidden: true, ..Self::white(recordings, size) }
+    }
+
+    /// True where a mismatch is so large that the noise cannot be told from it.
+    pub fn hidden(&self) -> bool {
+        self.hidden
     }
 
     /// The same with one more recording, whose noise is like that of a known one.
@@ -84,7 +96,7 @@ impl Noise {
     pub(super) fn with_another_like(&self, r: usize) -> Self {
         let mut filters = self.filters.clone();
         filters.push(filters[r].clone());
-        Self { filters }
+        Self { filters, hidden: self.hidden }
     }
 
     /// Number of samples lost at the start of a recording.

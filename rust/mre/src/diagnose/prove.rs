@@ -5,9 +5,10 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::least_squares::{Data, Fitted, Point, refine};
+use super::monitor::Monitor;
 use super::noise::Noise;
 use super::normal::Rows;
-use crate::assembly::Assembly;
+use crate::assembly::{Assembly, Base, Campaign};
 use crate::kernel::filter::dot;
 use crate::recording::Recording;
 
@@ -33,12 +34,17 @@ pub(super) struct Split {
 ///
 /// Whole recordings are held out where every group that shares parameters has enough of them; otherwise,
 /// or where `by_blocks` asks for it, contiguous blocks of every recording, separated by a guard.
-pub(super) fn splits(recordings: &[&Recording], groups: &[Vec<usize>], by_blocks: bool) -> Vec<Split> {
+pub(super) fn splits(campaign: &Campaign, base: &Base, by_blocks: bool) -> Vec<Split> {
+    let recordings: Vec<&Recording> = campaign.recordings().iter().map(AsRef::as_ref).collect();
+    let groups: Vec<Vec<usize>> = match base {
+        Base::Fitted(groups) => groups.iter().map(|g| g.members.clone()).collect(),
+        Base::Held(_) | Base::Given(_) => vec![(0..recordings.len()).collect()],
+    };
     if by_blocks || groups.iter().any(|g| g.len() < FOLDS) {
-        return (0..FOLDS).map(|fold| blocks(recordings, fold)).collect();
+        return (0..FOLDS).map(|fold| blocks(&recordings, fold)).collect();
     }
     let mut fold_of = vec![None; recordings.len()];
-    for group in groups {
+    for group in &groups {
         // What is farthest and what is fastest always trains: a model is judged inside the tested range.
         let extreme = |series: fn(&Recording) -> &[f64]| {
             let size = |r: &usize| series(recordings[*r]).iter().fold(0.0_f64, |m, v| m.max(v.abs()));
@@ -109,12 +115,18 @@ pub struct Proof {
 ///
 /// Coefficients of the measurement (drift, interference) belong to a recording: those of a held-out one are
 /// fitted to it, and the rest of the model is not.
-pub(super) fn prove(assembly: &Assembly, noise: &Noise, splits: &[Split], fitted: &Fitted) -> Proof {
+pub(super) fn prove(
+    assembly: &Assembly,
+    noise: &Noise,
+    splits: &[Split],
+    fitted: &Fitted,
+    monitor: &dyn Monitor,
+) -> Proof {
     let count = assembly.campaign().recordings().len();
     let sums: Vec<(Sums, Sums)> = splits
         .par_iter()
         .map(|split| {
-            let data = Data { noise, rows: &split.train };
+            let data = Data { noise, rows: &split.train, monitor };
             let trained = refine(assembly, data, &fitted.unit);
             let point = Point::at(assembly, data, trained.unit);
             let own = own_coefficients(assembly);

@@ -6,6 +6,7 @@
 //! known covariance, whatever the number of samples.
 
 use super::bounded;
+use super::candidates::of_the_scored;
 use super::distribution::{chi_square_tail, normal};
 use super::least_squares::{Data, Point};
 use super::normal::whitened;
@@ -60,6 +61,9 @@ pub(super) struct Null<'a> {
 
 impl<'a> Null<'a> {
     pub(super) fn new(assembly: &Assembly<'a>, data: Data<'a>, unit: &[f64]) -> Option<Self> {
+        if data.monitor.broken_off() {
+            return None;
+        }
         let assembly = assembly.knowing(&assembly.physical(unit));
         let point = Point::at(&assembly, data, unit.to_vec());
         let count = point.fitted.coefficients.len() + unit.len();
@@ -92,21 +96,21 @@ impl<'a> Null<'a> {
         Some(Self { assembly, data, point, tangents, factor, scale, right })
     }
 
+    /// True where the search was broken off.
+    pub(super) fn broken_off(&self) -> bool {
+        self.data.monitor.broken_off()
+    }
+
     /// The model whose tangents are projected off.
     pub(super) fn assembly(&self) -> &Assembly<'a> {
         &self.assembly
     }
 
-    /// Residuals of the fitted model, N.
+    /// Residuals of the fitted model in N, of the samples that are scored.
     pub(super) fn residuals(&self) -> Vec<Vec<f64>> {
         let recordings = self.assembly.campaign().recordings();
         let pairs = recordings.iter().zip(&self.point.recordings);
-        pairs
-            .map(|(r, local)| {
-                let measured = r.force().unwrap_or_default();
-                measured.iter().zip(&local.force).map(|(f, model)| f - model).collect()
-            })
-            .collect()
+        pairs.map(|(r, local)| of_the_scored(r, &local.force)).collect()
     }
 
     /// What effects see of a recording.
@@ -152,7 +156,7 @@ impl<'a> Null<'a> {
     /// Score test of one law.
     pub(super) fn score(&self, effect: &'static dyn Effect, seed: u64) -> Option<Score> {
         let sizes = self.assembly.campaign().sizes();
-        if !effect.applies(sizes) {
+        if !effect.applies(sizes) || self.broken_off() {
             return None;
         }
         let starts = effect.starts(sizes);

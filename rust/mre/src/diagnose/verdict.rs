@@ -51,6 +51,8 @@ pub struct Evidence {
     pub share: f64,
     /// Rms in N of the force that the best further candidate would add.
     pub lack_of_fit: f64,
+    /// True where the mismatch is so large that the noise cannot be told from it.
+    pub plain: bool,
 }
 
 impl Evidence {
@@ -75,16 +77,17 @@ impl Evidence {
             rest: significant,
             share,
             lack_of_fit: if significant { change } else { 0.0 },
+            plain: named.noise.hidden(),
         }
     }
 
     pub(super) fn verdict(&self, effects: usize) -> Verdict {
-        let trusted = TRUSTED[usize::from(effects > 1)];
+        let trusted = if self.plain { TRUSTED[0] } else { TRUSTED[usize::from(effects > 1)] };
         match (effects, self.rest) {
             (0, false) => Verdict::Adequate,
             (0, true) => Verdict::Unexplained,
             (_, true) if self.share > trusted && self.p_rest < BEYOND_CHANCE => Verdict::Unexplained,
-            (_, true) if self.share > FORM * trusted => Verdict::PartlyExplained,
+            (_, true) if self.plain || self.share > FORM * trusted => Verdict::PartlyExplained,
             _ => Verdict::MissingPhysics,
         }
     }

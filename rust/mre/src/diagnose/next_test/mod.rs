@@ -11,6 +11,7 @@ use super::absorbed::{hidden_among, ids_of};
 use super::candidates::Candidate;
 use super::distribution::normal_tail;
 use super::least_squares::{Data, refine};
+use super::monitor::Monitor;
 use super::noise::Noise;
 use super::normal::Rows;
 use super::screen::{Null, Score};
@@ -78,6 +79,7 @@ pub(super) fn propose(
     doubt: &Doubt,
     rows: &[Rows],
     settings: &Settings,
+    monitor: &dyn Monitor,
 ) -> Option<NextTest> {
     if doubt.rivals.is_empty() && doubt.hidden.is_empty() {
         return None;
@@ -95,8 +97,8 @@ pub(super) fn propose(
     let mut prospects: Vec<Prospect> = KINDS
         .iter()
         .filter_map(|kind| {
-            let signal = kind.signal(&limits)?;
-            let chances = chances(named, base, doubt, rows, settings, &signal)?;
+            let signal = monitor.whole(kind.signal(&limits)?)?;
+            let chances = chances(named, base, doubt, rows, settings, &signal, monitor)?;
             let (frequency, amplitude) = (signal.frequency, signal.amplitude);
             Some(Prospect { kind: *kind, frequency, amplitude, chances })
         })
@@ -118,6 +120,7 @@ fn chances(
     rows: &[Rows],
     settings: &Settings,
     signal: &Signal,
+    monitor: &dyn Monitor,
 ) -> Option<Vec<(&'static str, f64)>> {
     let silent = World::new(named.assembly.campaign(), base, signal, None)?;
     let force = silent.simulated(&named.assembly, &named.fitted, PASSES)?;
@@ -125,7 +128,7 @@ fn chances(
     let noise: Noise = named.noise.with_another_like(0);
     let mut rows = rows.to_vec();
     rows.extend(world.campaign().recordings().last().map(|r| vec![r.scored()]));
-    let data = Data { noise: &noise, rows: &rows };
+    let data = Data { noise: &noise, rows: &rows, monitor };
     let (own, start) = world.assembly(&named.assembly, &named.fitted);
     let fitted = refine(&own, data, &start);
     let price = (fitted.rows as f64).ln();

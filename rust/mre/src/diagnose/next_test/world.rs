@@ -46,7 +46,7 @@ impl World {
                 members.iter_mut().find(|m| m.contains(&0))?.push(recordings.len() - 1);
                 Base::fitted(&recordings, groups.first()?.problem.model().name(), &members).ok()?
             }
-            Base::Held(device) => Base::Held(device.again().ok()?),
+            Base::Held(kept) => Base::Held(kept.again().ok()?),
             Base::Given(_) => return None,
         };
         // Steps of the current where it was constant would ask for another law of the base.

@@ -1,0 +1,50 @@
+"""Ctrl-C, and the signal that asks a process to end, in work whose results so far are worth writing."""
+
+import signal
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from types import FrameType
+from typing import Any
+
+ASKED = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM") if hasattr(signal, name))
+
+
+class Interrupts:
+    """Raise KeyboardInterrupt, but let what is done be written: only a second signal breaks that off."""
+
+    def __init__(self) -> None:
+        self._asked = False
+        self._done = False
+
+    def done(self) -> None:
+        """From now on results are written, which takes a moment."""
+        self._done = True
+
+    def answer(self, signal_number: int, frame: FrameType | None) -> None:
+        """Answer a signal."""
+        first, self._asked = not self._asked, True
+        if not (first and self._done):
+            raise KeyboardInterrupt
+
+
+@contextmanager
+def interrupts() -> Iterator[Interrupts]:
+    """Answer both signals alike while the block runs; one that the process ignores stays ignored.
+
+    Yields
+    ------
+    Interrupts
+        To be told when there is nothing left to break off.
+    """
+    state = Interrupts()
+    before: dict[int, Any] = {}
+    if threading.current_thread() is threading.main_thread():  # no other one may
+        for number in ASKED:
+            if signal.getsignal(number) is not signal.SIG_IGN:
+                before[number] = signal.signal(number, state.answer)
+    try:
+        yield state
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
