@@ -1,8 +1,8 @@
 """Ctrl-C and SIGTERM at random moments: status 130, whole files, nobody left at work, and batches go on."""
 
+import importlib
 import random
 import signal
-import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -100,7 +100,7 @@ def test_in_other_threads_nothing_changes() -> None:
 
 def test_a_signal_after_the_swarm_counts(monkeypatch: pytest.MonkeyPatch, sinh_4mm: Recording) -> None:
     # Ctrl-C while the swarm's result is compared with the exact optimum.
-    module = sys.modules["mre_core.identify"]
+    module = importlib.import_module("mre_core.identify")
     exact = mre_core.exact
 
     def stopped(*given: Any, **options: Any) -> mre_core.SwarmResult:
