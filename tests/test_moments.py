@@ -37,7 +37,7 @@ def test_a_batch_goes_on(tmp_path: Path, cli: Cli, monkeypatch: pytest.MonkeyPat
     for out in ("out", "never_stopped"):
         assert cli(*job.arguments[:-1], out, "--quiet")[0] == 0
     stopped, never = (mre_core.read_results(tmp_path / out) for out in ("out", "never_stopped"))
-    same = [name for name in never if not name.endswith("time") and name != "settings"]
+    same = [name for name in never if not str(name).endswith("time") and name != "settings"]
     pd.testing.assert_frame_equal(stopped[same], never[same])
     assert (never["status"] == "done").sum() == 8
 

@@ -39,7 +39,7 @@ def uninterrupted() -> Iterator[None]:
         for number, handler in before.items():
             if callable(handler):
                 signal.signal(number, handler)
-        for number, frame in held[:1]:
-            handler = before[signal.Signals(number)]
+        for came, frame in held[:1]:
+            handler = before[signal.Signals(came)]
             if callable(handler):
-                handler(number, frame)
+                handler(came, frame)

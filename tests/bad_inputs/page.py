@@ -11,6 +11,8 @@ from .table import GROUPS
 PAGE: Final = Path(__file__).resolve().parents[2] / "docs" / "bad-inputs.md"
 
 LONGEST: Final = 200
+_LIST: Final = re.compile(r"(\w+)(?:, \w+){8,}, (\w+)")
+"""Of every option or effect there is: the page is not to change with each."""
 
 _INTRODUCTION = """# Bad inputs
 
@@ -37,6 +39,7 @@ def page(said: Mapping[str, str]) -> str:
 
 def _code(text: str) -> str:
     """As code in a cell of a table, whatever it holds."""
+    text = _LIST.sub(r"\1, ..., \2", text)
     text = text if len(text) <= LONGEST else text[: LONGEST - 3] + "..."
     fence = "`" * (1 + max(map(len, re.findall("`+", text)), default=0))
     space = " " if "`" in text else ""

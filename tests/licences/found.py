@@ -63,10 +63,10 @@ def _licence(name: str) -> str:
         told = metadata(name)
     except PackageNotFoundError:
         return "not installed here"
-    if expression := told.get("License-Expression"):
-        return str(expression)
+    if expression := told.get_all("License-Expression", []):
+        return str(expression[0])
     kinds = [c.rsplit(" :: ", 1)[1] for c in told.get_all("Classifier", []) if c.startswith("License ::")]
-    first = str(told.get("License") or "").strip().splitlines()[:1]
+    first = "".join(map(str, told.get_all("License", []))).strip().splitlines()[:1]
     return "; ".join(kinds) or (first[0] if first else "not stated")
 
 

@@ -13,8 +13,6 @@ class Job(NamedTuple):
     arguments: Sequence[str]
     span: float
     """Seconds from which a moment is drawn: some before the work, some within it."""
-    resumed: Sequence[str] | None = None
-    """The command that goes on, where one does."""
 
 
 def one(folder: Path) -> None:
@@ -53,9 +51,9 @@ JOBS = {
     "identify, figures": Job(
         one, [*IDENTIFY, "--optimizer", "pso", "--iterations", "2", "--out", "out"], 3.0
     ),
-    "batch": Job(several, [*BATCH, "--out", "out"], 6.0, [*BATCH, "--out", "out"]),
-    "trial run": Job(trial, [*RUN, "--workers", "2"], 6.0, None),
-    "trial run, one process": Job(trial, [*RUN, "--workers", "1"], 6.0, None),
+    "batch": Job(several, [*BATCH, "--out", "out"], 3.0),
+    "trial run": Job(trial, [*RUN, "--workers", "2"], 6.0),
+    "trial run, one process": Job(trial, [*RUN, "--workers", "1"], 6.0),
     "study": Job(lambda folder: None, ["study", "--quick", "--out", "out"], 5.0),
     "demo": Job(lambda folder: None, ["demo", "--iterations", "20", "--out", "out"], 5.0),
 }

@@ -57,7 +57,7 @@ def stop(arguments: Sequence[str], folder: Path, moment: float, number: signal.S
 def check(found: Stopped, folder: Path) -> None:
     """Nothing but whole files is left, and nobody at work."""
     # Zero, or the signal itself, where all was done before it came.
-    assert found.status in {130, 0, -signal.SIGTERM}, found
+    assert found.status in {130, 0, *(-number for number in SIGNALS)}, found
     assert "Traceback" not in found.said, found
     if found.status == 130:
         # On a terminal the line of ^C ends first.

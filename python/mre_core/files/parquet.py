@@ -68,7 +68,7 @@ def _count(metadata: Any) -> int:
     """Values in all columns, those in lists included."""
     groups = [metadata.row_group(i) for i in range(metadata.num_row_groups)]
     counts = [group.column(j).num_values for group in groups for j in range(group.num_columns)]
-    return max(sum(counts), metadata.num_rows * metadata.num_columns)
+    return int(max(sum(counts), metadata.num_rows * metadata.num_columns))
 
 
 def _unit(metadata: Any) -> object:
