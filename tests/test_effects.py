@@ -185,3 +185,9 @@ def test_a_base_with_effects_keeps_them() -> None:
     assert found.base_model.effects[0].parameters["k_m"] == pytest.approx(K_M, rel=0.01)
     assert found.model.effects[0].id == "maxwell_relaxation"
     assert "maxwell_relaxation" not in [effect.id for effect in found.effects]
+
+
+@pytest.mark.parametrize("law", ["dead zone", "dead zone without damping", "play"])
+def test_a_gap_below_zero_is_refused(law: str) -> None:
+    with pytest.raises(MreError, match=r"^g of backlash is -1: a finite number from 0 to inf$"):
+        Effect("backlash", law, {"g": -1.0})

@@ -91,7 +91,9 @@ pub(crate) fn sizes(given: &Bound<'_, PyMapping>) -> PyResult<Sizes> {
     let item = |name: &str| given.get_item(name).ok().filter(|value| !value.is_none());
     let number = |name: &str| -> PyResult<f64> {
         let value = item(name).and_then(|value| value.extract::<f64>().ok());
-        value.filter(|value| (SMALLEST..=LARGEST).contains(value)).ok_or_else(|| unusable(name, "a number above 0"))
+        value
+            .filter(|value| (SMALLEST..=LARGEST).contains(value))
+            .ok_or_else(|| unusable(name, "a number above 0"))
     };
     Ok(Sizes {
         displacement: number("displacement")?,
