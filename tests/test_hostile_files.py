@@ -147,6 +147,13 @@ def test_mat_of_sizes_that_it_has_not(tmp_path: Path, kind: int) -> None:
     refused(tmp_path / "a.mat")
 
 
+def test_mat_that_ends_within_a_variable(tmp_path: Path) -> None:
+    # Found by fuzzing: SciPy reads beyond the end and stops the process.
+    whole = mat(matrix(6, 1, 1))
+    (tmp_path / "a.mat").write_bytes(whole[:-10])
+    refused(tmp_path / "a.mat", "it ends within a variable")
+
+
 WATCH = """
 import os
 FORBIDDEN = ("socket.", "subprocess.", "os.system", "os.exec", "os.fork", "pickle.", "ctypes.dlopen")

@@ -97,12 +97,15 @@ def _unpacked(path: Path) -> int:
     import struct
     import zlib
 
-    total = 0
+    total, length = 0, path.stat().st_size
     with path.open("rb") as opened:
         order = {b"IM": "<", b"MI": ">"}.get(opened.read(128)[126:128])
         while order and len(tag := opened.read(8)) == 8:
             kind, size = struct.unpack(f"{order}II", tag)
             following = opened.tell() + size
+            if following > length:  # SciPy would read beyond what is there
+                problem = "cannot be read: it ends within a variable"
+                raise InputError(problem, file=str(path), wanted="a whole .mat file")
             if kind == _COMPRESSED:
                 inside = zlib.decompressobj().decompress(opened.read(min(size, 1024)), 8)
                 size = struct.unpack(f"{order}II", inside)[1] if len(inside) == 8 else size
