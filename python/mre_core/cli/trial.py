@@ -93,9 +93,9 @@ def open_(
 
 
 def _print(found: "Opening") -> None:
-    from rich.markup import escape
     from rich.table import Table
 
+    from .escape import escape
     from .show import console
 
     out = console()
