@@ -59,7 +59,7 @@ fn alone<'a>(
     let rest = mismatch(&named.assembly, &named.fitted);
     let explained = (base.left - named.fitted.left).max(0.0);
     let change = rms_change(&named, data);
-    let evidence = Evidence::new(first, rest, explained, &named, change, false_alarm);
+    let evidence = Evidence::new(first, rest, explained, &named, begun.noise.hidden(), change, false_alarm);
     let verdict = evidence.verdict(named.assembly.effects().len() - begun.assembly.effects().len());
     Judged { named, base, evidence, verdict }
 }

@@ -29,6 +29,9 @@ const LATER: usize = 3;
 const LEAST_OF_NOISE: f64 = 0.1;
 /// And by more than this share of what the first one lowered it.
 const LEAST_OF_FIRST: f64 = 0.2;
+/// And, where the noise is hidden, by more than this share of itself: every model of a real device can be bent a
+/// little closer.
+const LEAST_OF_REST: f64 = 0.1;
 
 /// A model with its fit and the noise that it leaves.
 #[derive(Clone)]
@@ -47,6 +50,18 @@ pub struct Named<'a> {
     pub later: Vec<Candidate<'a>>,
     /// For each effect, the p-value with which it entered.
     pub p_values: Vec<f64>,
+}
+
+/// What a model improves, N.
+struct Improvement {
+    /// By how much it lowers the held-out rms.
+    held_out: f64,
+    /// The same on the samples trained on.
+    trained: f64,
+    /// Held-out rms before.
+    rest: f64,
+    /// Rms of the noise.
+    noise: f64,
 }
 
 /// What the search works on.
@@ -106,7 +121,7 @@ impl<'a> Search<'_, 'a> {
         if let Some(second) = second {
             best = self.best_first(before, best, &second)?;
         }
-        let [held_out, trained, _] = self.improvement(before, &best)?;
+        let Improvement { held_out, trained, .. } = self.improvement(before, &best)?;
         // A base that fails plainly where it is carried too far is no measure of the first effect.
         let removed = if best.noise.hidden() { held_out.min(trained) } else { held_out };
         Some((best, removed))
@@ -123,8 +138,10 @@ impl<'a> Search<'_, 'a> {
     /// The same with its best law, if it also helps on data that took no part.
     fn worth_adding(&self, here: &Named<'a>, next: &Candidate<'a>, by_first: f64) -> Option<Named<'a>> {
         let best = self.best_law(self.wider(here, next)?)?;
-        let [removed, _, noise] = self.improvement(here, &best)?;
-        (removed >= (LEAST_OF_NOISE * noise).max(LEAST_OF_FIRST * by_first)).then_some(best)
+        let Improvement { held_out, rest, noise, .. } = self.improvement(here, &best)?;
+        let of_rest = if best.noise.hidden() { LEAST_OF_REST * rest } else { 0.0 };
+        let least = (LEAST_OF_NOISE * noise).max(LEAST_OF_FIRST * by_first).max(of_rest);
+        (held_out >= least).then_some(best)
     }
 
     /// The recordings under some noise.
@@ -212,9 +229,8 @@ impl<'a> Search<'_, 'a> {
         fit(narrower, data, &unit)
     }
 
-    /// How much one model lowers the held-out rms of another, that on the samples trained on, and the rms of
-    /// the noise, N.
-    fn improvement(&self, before: &Named<'a>, after: &Named<'a>) -> Option<[f64; 3]> {
+    /// What one model improves of another.
+    fn improvement(&self, before: &Named<'a>, after: &Named<'a>) -> Option<Improvement> {
         let proof = |n: &Named<'a>| prove(&n.assembly, &after.noise, self.splits, &n.fitted, self.monitor);
         let data = self.data(&after.noise);
         self.monitor.stage(Stage::Proof, || {
@@ -223,7 +239,12 @@ impl<'a> Search<'_, 'a> {
                 None => residuals(&after.assembly, data, &after.fitted),
             };
             let (a, b) = (proof(before), proof(after));
-            [a.held_out_rms - b.held_out_rms, a.train_rms - b.train_rms, rms(&left)]
+            Improvement {
+                held_out: a.held_out_rms - b.held_out_rms,
+                trained: a.train_rms - b.train_rms,
+                rest: a.held_out_rms,
+                noise: rms(&left),
+            }
         })
     }
 

@@ -51,8 +51,10 @@ pub struct Evidence {
     pub share: f64,
     /// Rms in N of the force that the best further candidate would add.
     pub lack_of_fit: f64,
-    /// True where the mismatch is so large that the noise cannot be told from it.
+    /// True where the base plainly misses.
     pub plain: bool,
+    /// True where what is left hides the noise.
+    pub hidden: bool,
 }
 
 impl Evidence {
@@ -61,6 +63,7 @@ impl Evidence {
         rest: Mismatch,
         explained: f64,
         named: &Named,
+        plain: bool,
         change: f64,
         false_alarm: f64,
     ) -> Self {
@@ -77,7 +80,8 @@ impl Evidence {
             rest: significant,
             share,
             lack_of_fit: if significant { change } else { 0.0 },
-            plain: named.noise.hidden(),
+            plain,
+            hidden: named.noise.hidden(),
         }
     }
 
@@ -87,7 +91,7 @@ impl Evidence {
             (0, false) => Verdict::Adequate,
             (0, true) => Verdict::Unexplained,
             (_, true) if self.share > trusted && self.p_rest < BEYOND_CHANCE => Verdict::Unexplained,
-            (_, true) if self.plain || self.share > FORM * trusted => Verdict::PartlyExplained,
+            (_, true) if self.hidden || self.share > FORM * trusted => Verdict::PartlyExplained,
             _ => Verdict::MissingPhysics,
         }
     }
