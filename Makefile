@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 export CARGO_BUILD_JOBS ?= 2
 STAMP := $(VENV)/.installed
 
-.PHONY: demo study test test-rust test-python lint bench figures rivals trials proof docs install clean
+.PHONY: demo study test test-rust test-python lint bench figures rivals trials proof bad-inputs fuzz moments third-party docs install clean
 
 # The main job: identify the paper's twelve tests (a simulated replica) with both models and all swarms.
 demo: install
@@ -60,6 +60,21 @@ proof: install
 	$(BIN)/mre-core trial open judged --tables docs/proof/judging
 	$(BIN)/python benches/real_proof
 	$(BIN)/python benches/proof.py
+
+# Random input for about ten minutes, and every command stopped 200 times.
+fuzz: install
+	MRE_FUZZ=40 $(BIN)/python -m pytest tests/test_fuzz_core.py tests/test_fuzz_effects.py tests/test_fuzz_files.py
+
+moments: install
+	PYTHONPATH=tests $(BIN)/python -m moments 200
+
+# The list of what others have made, with licences.
+third-party: install
+	PYTHONPATH=tests $(BIN)/python -m licences
+
+# The page of bad inputs, from the table in tests/bad_inputs.
+bad-inputs: install
+	PYTHONPATH=tests $(BIN)/python -m bad_inputs
 
 # The documentation, into the folder site: it opens from disk. A link that leads nowhere is an error.
 docs: install

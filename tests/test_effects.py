@@ -118,7 +118,7 @@ BAD = {
     "parameter missing": (("maxwell_relaxation", "one branch", {"tau": 1.0}), ["are tau", "k_m, tau"]),
     "parameter too many": (("inertia", "moving mass", {"m": 1.0, "n": 2.0}), ["are m, n", "wanted m"]),
     "no parameter": (("inertia", "moving mass", {}), ["are none", "wanted m"]),
-    "not finite": (("inertia", "moving mass", {"m": float("nan")}), ["m of inertia", "NaN", "finite"]),
+    "not finite": (("inertia", "moving mass", {"m": float("nan")}), ["m of inertia", "nan", "finite"]),
     "not admissible": (("inertia", "moving mass", {"m": -1.0}), ["m of inertia", "-1", "from 0"]),
     "coefficients of a measurement": (
         ("mains_interference", "fundamental", {"A_1": 1.0, "B_1": 1.0, "f": 50.0}),
@@ -185,3 +185,9 @@ def test_a_base_with_effects_keeps_them() -> None:
     assert found.base_model.effects[0].parameters["k_m"] == pytest.approx(K_M, rel=0.01)
     assert found.model.effects[0].id == "maxwell_relaxation"
     assert "maxwell_relaxation" not in [effect.id for effect in found.effects]
+
+
+@pytest.mark.parametrize("law", ["dead zone", "dead zone without damping", "play"])
+def test_a_gap_below_zero_is_refused(law: str) -> None:
+    with pytest.raises(MreError, match=r"^g of backlash is -1: a finite number from 0 to inf$"):
+        Effect("backlash", law, {"g": -1.0})

@@ -177,7 +177,7 @@ def test_nothing_is_opened_that_was_tampered_with(
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (["make", "new", "--cases", "0"], "cases is 0, wanted at least 1"),
+        (["make", "new", "--cases", "0"], "cases is 0, wanted a whole number from 1"),
         (["make", "new", "--seed", "-1"], "seed is -1"),
         (["make", "new", "--workers", "0"], "workers is 0"),
         (["make", "."], "holds trial.json already, wanted a new folder"),

@@ -154,3 +154,13 @@ def test_identification_asks_for_every_run(sinh_4mm: Recording) -> None:
     assert found.bootstrap(4)[0].seed == 4
     assert found.bootstrap(4, seed=9)[0].seed == 9
     assert [p.name for p in found.profile()[0]] == list(KELVIN_VOIGT)
+
+
+def test_refits_of_a_model_without_shapes_over_a_changing_current() -> None:
+    # Found by fuzzing: the refit of each replicate looked for shapes, of which there are none.
+    t = np.arange(64) / 16
+    x, current = np.sin(6 * t), np.linspace(0.0, 1.0, 64)
+    recording = Recording(t, x, (2 + current) * x, current=current)
+    problem = Problem(recording, "kelvin_voigt")
+    found = mre_core.bootstrap(problem, mre_core.exact(problem).x, 3, seed=1)
+    assert np.isfinite(found.replicates).all()

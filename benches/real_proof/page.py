@@ -6,14 +6,19 @@ from pathlib import Path
 import mre_core
 import numpy as np
 from cases import Proof
-from mre_core.plot import plot_diagnosis
+from mre_core.plots import plot_before_after
 
 
 def answered(proof: Proof) -> str:
-    """One word on the question of the case: named, and what was put in right within 10 %."""
-    named = {effect.id for effect in proof.diagnosis.effects}
+    """Tell whether the question of the case was answered: named, and what was put in right within 10 %.
+
+    `as a rival` where the recordings cannot tell the answer from the effect that was named.
+    """
+    unknown = proof.diagnosis.unknown or {"depends_on": []}
+    named = {effect.id for effect in proof.diagnosis.effects} | {d["on"] for d in unknown["depends_on"]}
+    rivals = {rival for effect in proof.diagnosis.effects for rival in effect.indistinguishable_from}
     if not named & set(proof.expected):
-        return "no"
+        return "as a rival" if rivals & set(proof.expected) else "no"
     return "yes" if all(abs(error) <= 0.1 for *_, error in sizes(proof)) else "in part"
 
 
@@ -37,7 +42,7 @@ def write(proof: Proof, folder: Path) -> None:
     figure = f"{proof.name}.png"
     found = proof.diagnosis
     worst = max(found.histories, key=lambda h: float(np.mean((h.measured - h.base) ** 2)))
-    plot_diagnosis(worst).savefig(folder / figure, dpi=75)
+    plot_before_after(worst).savefig(folder / figure, dpi=75)
     text = "\n\n".join(_paragraphs(proof, f"![{worst.recording}]({figure})"))
     (folder / f"{proof.name}.md").write_text(text + "\n", encoding="utf-8")
 
@@ -59,12 +64,14 @@ def _paragraphs(proof: Proof, figure: str) -> Iterator[str]:
             yield "\n".join(["| parameter | value | 95 % interval | unit |", "|---|---:|---:|---|", *rows])
         if effect.indistinguishable_from:
             yield f"Not to be told from: {', '.join(effect.indistinguishable_from)}."
+    if found.unknown:
+        yield f"**Unexplained:** {found.unknown['statement']}"
     if found.where:
         yield "**Where:**"
         yield "\n".join(f"- {place['what']}" for place in found.where[:5])
     true = [f"| {name} | {t:.5g} | {f:.5g} | {100 * error:+.1f} % |" for name, t, f, error in sizes(proof)]
     if true:
-        head = "| parameter | there before and put in | found | error over what was put in |"
+        head = "| parameter | put in | found | error over what was put in |"
         yield "\n".join([head, "|---|---:|---:|---:|", *true])
     yield figure
     fit = found.fit

@@ -3,6 +3,7 @@
 import json
 import os
 from collections.abc import Callable, Sequence
+from numbers import Real
 from typing import Any, Literal
 
 import numpy as np
@@ -24,7 +25,7 @@ from .findings import (
     rms_of_force,
     unknown_of,
 )
-from .grouping import group_by_current
+from .grouping import each_of, group_by_current
 from .minimise import draw_seed
 from .model import SIMULATED, Level, Model, simulate
 from .suitable import check_recordings
@@ -34,6 +35,18 @@ MOST_BLANKS = 100_000
 """More say no more about a rate."""
 DONE = "done"
 """The last stage."""
+
+
+def check_false_alarm(given: object) -> None:
+    """Refuse what is no chance of a false alarm.
+
+    Raises
+    ------
+    InputError
+        It is no number in (0, 0.5).
+    """
+    if isinstance(given, bool) or not (isinstance(given, Real) and 0 < float(given) < 0.5):
+        raise InputError(f"false_alarm is {given!r}", wanted="a number above 0 and below 0.5")
 
 
 def diagnose(
@@ -90,12 +103,11 @@ def diagnose(
     MreError
         The recordings, the base or a setting cannot be used (a ValueError).
     """
-    everything = [recordings] if isinstance(recordings, Recording) else list(recordings)
+    everything = list(each_of(recordings))
     start = _read(base)
     name = start.name if isinstance(start, Model) else start
     given = start.levels if isinstance(start, Model) and fixed else None
-    if isinstance(false_alarm, bool) or not 0 < false_alarm < 0.5:
-        raise InputError(f"false_alarm is {false_alarm!r}", wanted="a number above 0 and below 0.5")
+    check_false_alarm(false_alarm)
     if isinstance(blank, bool) or not isinstance(blank, int | np.integer) or not 0 <= blank <= MOST_BLANKS:
         raise InputError(f"blank is {blank!r}", wanted=f"a whole number from 0 to {MOST_BLANKS}")
     seed = draw_seed(seed)

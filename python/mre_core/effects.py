@@ -6,6 +6,7 @@ from typing import Any, Self
 
 from . import _core
 from .errors import InputError
+from .stored import number
 
 
 @dataclass(frozen=True)
@@ -55,7 +56,7 @@ class Effect:
         coefficients, shapes, own = _core.effect_parameters(self.id, self.law)
 
         def values(part: list[tuple[str, str]]) -> list[float]:
-            return [float(self.parameters[name]) for name, _ in part]
+            return [number(self.parameters[name], f"{name} of {self.id}") for name, _ in part]
 
         return self.id, self.law, [] if own else values(coefficients), values(shapes)
 
@@ -80,7 +81,7 @@ class Effect:
             Something is missing, of the wrong kind, or not admissible.
         """
         try:
-            parameters = {str(name): float(p["value"]) for name, p in content["parameters"].items()}
+            parameters = {str(name): p["value"] for name, p in content["parameters"].items()}
             return cls(str(content["id"]), str(content["law"]), parameters)
         except (KeyError, TypeError, AttributeError) as error:
             raise InputError(

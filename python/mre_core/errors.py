@@ -1,12 +1,15 @@
 """Errors and warnings about what a user hands in: one line each."""
 
 from typing import Any
+from unicodedata import category
 
 from ._core import MreError
 
 __all__ = ["ExtrapolationWarning", "InputError", "MreError", "SkippedWarning", "UnitAssumedWarning"]
 
 _LONGEST_VALUE = 60
+_UNSEEN = ("Cc", "Cf", "Cs", "Co", "Cn")
+"""Unicode categories: control, format, surrogate, private, not assigned."""
 
 
 class UnitAssumedWarning(UserWarning):
@@ -86,6 +89,22 @@ def one_line(text: str) -> str:
     """
     joined = " ".join(text.splitlines())
     return "".join(char if char.isprintable() else "?" for char in joined)
+
+
+def visible(text: str) -> str:
+    """Replace what a terminal would obey instead of showing: control characters, turned directions.
+
+    Parameters
+    ----------
+    text : str
+        Any text, such as a name out of a file.
+
+    Returns
+    -------
+    str
+        The text with a question mark for each of these.
+    """
+    return "".join("?" if category(char) in _UNSEEN else char for char in text)
 
 
 def shown(value: object) -> str:

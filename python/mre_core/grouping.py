@@ -1,11 +1,30 @@
 """Recordings that share their parameters."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
 from ._core import Recording
-from .errors import InputError
+from .errors import InputError, shown
+
+
+def each_of(recordings: Recording | Iterable[Recording]) -> Iterator[Recording]:
+    """Go through one recording or several, as they come.
+
+    Raises
+    ------
+    TypeError
+        Something among them is no recording.
+    """
+    wanted = "a Recording or a sequence of them"
+    if isinstance(recordings, Recording):
+        recordings = [recordings]
+    if isinstance(recordings, str) or not isinstance(recordings, Iterable):
+        raise TypeError(f"recordings are {shown(recordings)}: wanted {wanted}")
+    for place, recording in enumerate(recordings):
+        if not isinstance(recording, Recording):
+            raise TypeError(f"recordings hold {shown(recording)} at place {place}: wanted {wanted}")
+        yield recording
 
 
 def group_by_current(recordings: Sequence[Recording]) -> list[tuple[float | None, list[Recording]]]:

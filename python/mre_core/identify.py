@@ -8,7 +8,7 @@ from ._core import Problem, Recording, check_certifiable, parameters
 from .certificate import certificate
 from .errors import InputError, MreError
 from .fits import exact, hybrid
-from .grouping import group_by_current
+from .grouping import each_of, group_by_current
 from .measure import Fit, measure_fit
 from .minimise import draw_seed
 from .model import Level, Model
@@ -131,7 +131,7 @@ def identify(
     if optimizer not in OPTIMIZERS:
         raise InputError(f"optimizer is {optimizer!r}", wanted=f"one of {', '.join(OPTIMIZERS)}")
     name = model.name if isinstance(model, Model) else model
-    everything = [recordings] if isinstance(recordings, Recording) else list(recordings)
+    everything = list(each_of(recordings))
     groups = group_by_current(everything)
     problems = [Problem(members, name, bounds, weights=weights) for _, members in groups]
     if certify:
@@ -174,6 +174,8 @@ def _optimise(
     if run.reason in (StopReason.INTERRUPTED, StopReason.CALLBACK):
         return run
     best = exact(problem, **shared)
+    if best.reason is StopReason.INTERRUPTED:  # the swarm has ended, what belongs to it has not
+        return replace(run, reason=best.reason)
     return replace(run, optimum=min(best.fitness, run.fitness))
 
 

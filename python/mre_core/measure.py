@@ -20,7 +20,7 @@ class Fit:
     rms: float
     """Root mean square error in N (eq. 9)."""
     relative_rms: float
-    """The same as a share of the root mean square of the force about its mean."""
+    """The same as a share of the force's root mean square about its mean; infinite for a constant force."""
     peak_error: float
     """Largest error as a share of the largest force."""
 

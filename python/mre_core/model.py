@@ -1,11 +1,10 @@
 """Identified models: their parameters by coil current, their files, and their simulation."""
 
-import json
+import math
 import os
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any, Self
 
 import numpy as np
@@ -16,13 +15,13 @@ from ._core import Recording
 from .current_laws.law import Dependence
 from .current_laws.variable import check_over, series_of
 from .effects import Effect
-from .errors import ExtrapolationWarning, InputError
-from .tested import beyond_tested
+from .errors import ExtrapolationWarning, InputError, shown
+from .stored import number, read_json
+from .tested import MOTION, beyond_tested
 
 SCHEMA = "mre-core/model/1"
 SIMULATED = "simulated"
 """In place of a model's name: the force that a user's own simulation gives for the recording."""
-_LARGEST_FILE = 50_000_000
 _FINE = 129
 """Levels at which laws are tabulated for a current that changes; between them the force is interpolated."""
 
@@ -68,10 +67,19 @@ class Model:
         if not self.levels:
             raise InputError("the model has no levels", wanted="at least one level of parameters")
         for level in self.levels:
+            if level.current is not None:
+                number(level.current, "current of a level")
             if sorted(level.parameters) != sorted(known):
                 raise InputError(
                     f"parameters of {self.name} are {', '.join(level.parameters)}", wanted=", ".join(known)
                 )
+            for name, value in level.parameters.items():
+                number(value, name)
+        for name, largest in self.tested.items():
+            number(largest, f"tested {name}", least=0.0 if name in MOTION else -math.inf)
+        for effect in self.effects:
+            if not isinstance(effect, Effect):
+                raise TypeError(f"effects hold {effect!r}: wanted an Effect")
         if self.effects and not self.sizes:
             raise InputError(
                 "the model has effects and no sizes", wanted="sizes of the recordings behind them"
@@ -151,17 +159,20 @@ class Model:
                 raise InputError(f"schema is {content['schema']!r}", file=file, wanted=SCHEMA)
             levels = tuple(
                 Level(
-                    None if level["current_A"] is None else float(level["current_A"]),
-                    {str(name): float(p["value"]) for name, p in level["parameters"].items()},
+                    level["current_A"],
+                    {str(name): number(p["value"], str(name)) for name, p in level["parameters"].items()},
                     {
-                        str(name): (float(p["low"]), float(p["high"]))
+                        str(name): (number(p["low"], f"low of {name}"), number(p["high"], f"high of {name}"))
                         for name, p in level["parameters"].items()
                         if "low" in p
                     },
                 )
                 for level in content["levels"]
             )
-            tested = {str(name): float(value) for name, value in content.get("tested", {}).items()}
+            tested = {
+                str(name): number(value, f"tested {name}")
+                for name, value in content.get("tested", {}).items()
+            }
             effects = tuple(Effect.from_dict(effect) for effect in content.get("effects", []))
             over = str(content.get("over", "current"))
             check_over(over)
@@ -185,16 +196,7 @@ class Model:
         InputError
             The file is missing, is not JSON, or is not a model.
         """
-        file = str(path)
-        try:
-            if Path(path).stat().st_size > _LARGEST_FILE:
-                raise InputError("too large for a model", file=file, wanted=f"at most {_LARGEST_FILE} bytes")
-            content = json.loads(Path(path).read_bytes())
-        except OSError as error:
-            raise InputError(f"cannot be read: {error.strerror}", file=file) from None
-        except (ValueError, RecursionError) as error:
-            raise InputError(f"is not JSON: {error}", file=file) from None
-        return cls.from_dict(content, file=file)
+        return cls.from_dict(read_json(path), file=str(path))
 
 
 def _ends(level: Level, name: str) -> dict[str, float]:
@@ -246,6 +248,8 @@ def simulate(model: Model | str | os.PathLike[str], recording: Recording) -> NDA
     ExtrapolationWarning
         The recording leaves the tested displacement, velocity or current.
     """
+    if not isinstance(recording, Recording):
+        raise TypeError(f"recording is {shown(recording)}: wanted a Recording")
     if not isinstance(model, Model):
         model = Model.load(model)
     for message in beyond_tested(model, recording):

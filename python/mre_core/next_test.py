@@ -1,6 +1,5 @@
 """The command signal of the test that a diagnosis proposes."""
 
-import json
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -11,7 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
-from .errors import InputError
+from .errors import InputError, shown
+from .stored import number, read_json
+
+MOST_SAMPLES = 10_000_000
 
 
 @dataclass(frozen=True)
@@ -64,9 +66,11 @@ def command(
         "duration": (duration, "duration_s"),
         "rate": (rate, "rate_hz"),
     }
-    limits = {name: known[key] if value is None else value for name, (value, key) in given.items()}
+    limits = {
+        name: number(known.get(key) if value is None else value, name) for name, (value, key) in given.items()
+    }
     for name, value in limits.items():
-        if isinstance(value, bool) or not (np.isfinite(value) and value > 0):
+        if value <= 0:
             raise InputError(f"{name} is {value!r}", wanted="a positive number")
     if limits["highest"] > limits["rate"] / 2:
         raise InputError(
@@ -78,11 +82,17 @@ def command(
             f"duration is {limits['duration']:g} s at {limits['rate']:g} samples a second",
             wanted="at least 16 samples",
         )
-    current = known["current_A"]
-    time, displacement, steps = _core.excitation(
-        proposal["excitation"], **limits, current=tuple(current) if current else None
-    )
-    return Command(proposal["excitation"], time, displacement, steps)
+    if limits["rate"] * limits["duration"] > MOST_SAMPLES:
+        raise InputError(
+            f"duration is {limits['duration']:g} s at {limits['rate']:g} samples a second",
+            wanted=f"at most {MOST_SAMPLES} samples",
+        )
+    excitation, current = str(proposal.get("excitation")), known.get("current_A")
+    if current is not None and not (isinstance(current, list | tuple) and len(current) == 2):
+        raise InputError(f"current_A is {shown(current)}", wanted="the lowest and the highest current")
+    ends = None if current is None else (number(current[0], "current_A"), number(current[1], "current_A"))
+    time, displacement, steps = _core.excitation(excitation, **limits, current=ends)
+    return Command(excitation, time, displacement, steps)
 
 
 def read_proposal(folder: str | os.PathLike[str]) -> Mapping[str, Any]:
@@ -95,13 +105,11 @@ def read_proposal(folder: str | os.PathLike[str]) -> Mapping[str, Any]:
     """
     path = Path(folder) / "diagnosis.json"
     try:
-        found = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise InputError(
-            f"{path} cannot be read", wanted="a folder that `diagnose --out` has written"
-        ) from error
+        found = read_json(path)
+    except InputError as error:
+        raise InputError(str(error), wanted="a folder that `diagnose --out` has written") from None
     proposal = found.get("next_test") if isinstance(found, dict) else None
-    if not isinstance(proposal, dict) or "limits" not in proposal:
+    if not (isinstance(proposal, dict) and isinstance(proposal.get("limits"), dict)):
         raise InputError(
             f"{path} proposes no test", wanted="a diagnosis with something in doubt that a test would resolve"
         )

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from .errors import InputError
+from .interruption import uninterrupted
 
 
 class Stage:
@@ -48,27 +49,24 @@ def staged(directory: str | os.PathLike[str]) -> Iterator[Stage]:
     """
     target = Path(directory)
     made: list[Path] = []
+    work: Path | None = None
     try:
-        for folder in [*reversed(target.parents), target]:
-            if not folder.exists():
-                folder.mkdir()
-                made.append(folder)
-        work = Path(tempfile.mkdtemp(prefix=".mre-core-", dir=target))
-    except OSError as error:
-        _remove(made)
-        raise _unwritable(target, error) from None
-    stage = Stage(work)
-    try:
+        with uninterrupted():
+            work = _prepared(target, made)
+        stage = Stage(work)
         yield stage
-        for name in stage.names:
-            os.replace(work / name, target / name)
+        with uninterrupted():
+            for name in stage.names:
+                os.replace(work / name, target / name)
+            shutil.rmtree(work, ignore_errors=True)
     except BaseException as error:
-        shutil.rmtree(work, ignore_errors=True)
-        _remove(made)
+        with uninterrupted():
+            if work is not None:
+                shutil.rmtree(work, ignore_errors=True)
+            _remove(made)
         if isinstance(error, OSError):
             raise _unwritable(target, error) from None
         raise
-    shutil.rmtree(work, ignore_errors=True)
 
 
 @contextmanager
@@ -98,6 +96,14 @@ def write_file(path: str | os.PathLike[str], write: Callable[[Path], None]) -> N
     """
     with staged_beside(path) as stage:
         write(stage.path(Path(path).name))
+
+
+def _prepared(target: Path, made: list[Path]) -> Path:
+    for folder in [*reversed(target.parents), target]:
+        if not folder.exists():
+            folder.mkdir()
+            made.append(folder)
+    return Path(tempfile.mkdtemp(prefix=".mre-core-", dir=target))
 
 
 def _remove(made: list[Path]) -> None:

@@ -12,6 +12,10 @@ if TYPE_CHECKING:
     from .model import Model
 
 
+MOTION = ("displacement_mm", "velocity_mm_s")
+"""Sizes of the motion that a model was tested with."""
+
+
 def largest_motion(recordings: Sequence[Recording]) -> dict[str, float]:
     """Largest absolute displacement in mm and velocity in mm/s in recordings."""
     return {

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ..errors import InputError
+from ..files.limits import is_text
 from ..files.readers import READERS
 from .journal import JOURNAL
 
@@ -82,6 +83,9 @@ def _is_known(path: Path) -> bool:
 
 
 def _item(name: str, files: tuple[Path, ...]) -> Item:
+    if not is_text(name):
+        shown = name.encode("utf-8", "backslashreplace").decode()
+        return Item(shown, (), "", 0.0, "its name is no text in UTF-8")
     if not files:
         return Item(name, (), "", 0.0, "no recording in the folder")
     digests: dict[str, str] = {}

@@ -1,5 +1,6 @@
 """The items and seeds of one batch: what is left to do, what became of it, and the files it ends with."""
 
+import hashlib
 import math
 import time
 from collections.abc import Callable
@@ -14,6 +15,9 @@ from .journal import Entry, Journal
 from .run import OnProgress
 from .settings import Settings
 from .work import Outcome, Task
+
+_LONGEST_NAME = 200
+"""Bytes of an item in the name of its model file, which has at most 255."""
 
 
 class Ledger:
@@ -97,6 +101,9 @@ class Ledger:
 
     def _file_of(self, item: str, seed: int) -> str:
         several = len(self._pairs) > len(self._items)
+        if len(item.encode()) > _LONGEST_NAME:
+            start = item.encode()[: _LONGEST_NAME - 13].decode(errors="ignore")
+            item = f"{start}-{hashlib.sha256(item.encode()).hexdigest()[:12]}"
         return f"{item}.seed{seed}.json" if several else f"{item}.json"
 
 

@@ -11,14 +11,18 @@ from inspect import signature
 from pathlib import Path
 from typing import Any, Literal, Self
 
-from .._core import Recording, models
-from ..errors import InputError, SkippedWarning
+import numpy as np
+
+from .._core import Recording, models, parameters
+from ..diagnose import check_false_alarm
+from ..errors import InputError, SkippedWarning, shown
 from ..files.table import NoTableError
 from ..fits import hybrid
-from ..identify import OPTIMIZERS, SWARMS
+from ..identify import OPTIMIZERS, SWARMS, identify
 from ..load import load_all
 from ..minimise import RunOptions
 from ..model import SIMULATED, Model
+from ..stored import number
 
 _VARYING = {"callback", "on_interrupt", "threads", "time_limit", "x0", "seed", "run", "problem_or_function"}
 """Keywords of an optimiser that belong to one run, or make results depend on the machine's speed."""
@@ -108,6 +112,10 @@ class Settings:
         if surplus := sorted(set(given_options) - known_options):
             problem = f"{surplus[0]} is given, which a batch that is to {job} does not take"
             raise InputError(problem, wanted=", ".join(sorted(known_options)))
+        if job == "identify":
+            _rehearse(name, given_options, bootstrap)
+        else:
+            check_false_alarm(given_options.get("false_alarm", 0.01))
         return cls(job, name, start, reading, given_options, bootstrap)
 
     def given_model(self) -> str | Model:
@@ -124,6 +132,28 @@ class Settings:
         """First twelve hexadecimal digits of the SHA-256 of the settings."""
         text = json.dumps(self.to_dict(), sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()[:12]
+
+
+def _rehearse(model: str, options: Mapping[str, Any], bootstrap: int | None) -> None:
+    """Identify a few samples with the options of all items, so that a wrong one is told once and at once.
+
+    Of the bounds only the names are known to hold for every item: the rest of a box follows from recordings.
+    """
+    if bootstrap is not None and bootstrap < 2:
+        raise InputError(f"bootstrap is {bootstrap}", wanted="a whole number of at least 2")
+    names = [name for name, _ in parameters(model)]
+    for name, pair in (options.get("bounds") or {}).items():
+        if name not in names and name.partition("(")[0] not in names:
+            raise InputError(f"bounds of '{name}'", wanted=f"one of {', '.join(names)}")
+        low, high = (number(end, f"bound of {name}") for end in pair)
+        if low > high:
+            raise InputError(f"bounds of {name} are {shown(pair)}", wanted="the lower one first")
+    phase = np.linspace(0, 6, 40)
+    short = Recording(phase, np.sin(phase), np.sin(phase + 0.1))
+    rest = {name: value for name, value in options.items() if name != "bounds"}
+    if options.get("optimizer") != "exact":
+        rest["callback"] = lambda *_: True  # ends it after the first generation
+    identify(short, model, seed=1, **rest)
 
 
 def _known_options(job: str, optimizer: str) -> set[str]:

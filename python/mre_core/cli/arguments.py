@@ -1,7 +1,7 @@
 """Options that several commands share, and how their texts are read."""
 
 import math
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -34,6 +34,8 @@ WHOLE = Whole()
 _PAIRS = ("--map", "--set", "--read")
 _FILES = ("--recordings",)
 _MOST_SEEDS = 1_000_000
+_LONGEST_NAME = 150
+"""Bytes; a file name has at most 255."""
 
 
 def _keys(option: str) -> Collection[str]:
@@ -210,22 +212,24 @@ def read_seeds(text: str) -> list[int]:
     """Read ``FIRST:END`` as whole numbers, the end left out."""
     first, colon, end = text.partition(":")
     try:
-        seeds = list(range(int(first), int(end)))
+        seeds = range(int(first), int(end))
         if not colon or not 0 < len(seeds) <= _MOST_SEEDS:
             raise ValueError
-        return seeds
-    except (ValueError, OverflowError, MemoryError):
+        return list(seeds)
+    except (ValueError, OverflowError):
         wanted = f"--seeds FIRST:END with two whole numbers, 1 to {_MOST_SEEDS} seeds"
         raise InputError(f"--seeds {text}", wanted=wanted) from None
 
 
 def unique_names(names: Sequence[str]) -> list[str]:
-    """Names that are good as file names, and different from each other."""
-    taken: Mapping[str, int] = {}
-    counts = dict(taken)
-    out = []
+    """Names that are good and short enough as parts of file names, and different from each other."""
+    out: list[str] = []
     for name in names:
-        safe = "".join(char if char.isalnum() or char in "-_.+ " else "_" for char in name) or "recording"
-        counts[safe] = counts.get(safe, 0) + 1
-        out.append(safe if counts[safe] == 1 else f"{safe}_{counts[safe]}")
+        plain = "".join(char if char.isalnum() or char in "-_.+ " else "_" for char in name) or "recording"
+        plain = plain.encode()[:_LONGEST_NAME].decode(errors="ignore")
+        count, unique = 1, plain
+        while unique in out:
+            count += 1
+            unique = f"{plain}_{count}"
+        out.append(unique)
     return out

@@ -122,9 +122,9 @@ def _draw(stage: "Stage", results: "pd.DataFrame") -> None:
 
 
 def _print(results: "pd.DataFrame", out: Path) -> None:
-    from rich.markup import escape
     from rich.table import Table
 
+    from .escape import escape
     from .show import console
 
     failed = results[results["status"] == "failed"]

@@ -34,11 +34,13 @@ def demo(out: Path | None, seed: int, iterations: int, threads: int | None) -> N
     """  # noqa: D301  # \b keeps the lines
     from contextlib import nullcontext
 
+    from ..minimise import draw_seed
     from ..output import Stage, staged
     from ..replica import CAMPAIGN, record
     from .settings import write_settings
     from .show import console
 
+    draw_seed(seed)  # refuses what is no seed
     recordings = [record(condition, seed) for condition in CAMPAIGN]
     place = staged(out) if out is not None else nullcontext()
     with place as stage:

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ..errors import visible
 from .arguments import common_options, pairs, report_options
 
 if TYPE_CHECKING:
@@ -76,15 +77,16 @@ def _print(found: "Inspection") -> None:
     if found.usable:
         _print_signals(out, found)
     for line in str(found).splitlines():
-        out.print(line, markup=False, soft_wrap=True)
+        out.print(visible(line), markup=False, soft_wrap=True)
 
 
 def _print_columns(out: Any, table: "Inspected") -> None:
     from rich.box import SIMPLE_HEAD
-    from rich.markup import escape
     from rich.table import Table
 
-    out.print(f"{table.name}: {'; '.join(table.notes)}", markup=False, soft_wrap=True)
+    from .escape import escape
+
+    out.print(visible(f"{table.name}: {'; '.join(table.notes)}"), markup=False, soft_wrap=True)
     by_header = {guess.header: guess for guess in table.guesses}
     columns = Table(box=SIMPLE_HEAD, pad_edge=False)
     for title in ("column", "role", "why"):
@@ -98,8 +100,9 @@ def _print_columns(out: Any, table: "Inspected") -> None:
 
 def _print_signals(out: Any, found: "Inspection") -> None:
     from rich.box import SIMPLE_HEAD
-    from rich.markup import escape
     from rich.table import Table
+
+    from .escape import escape
 
     table = Table(box=SIMPLE_HEAD, padding=(0, 1), pad_edge=False)
     table.add_column("recording")

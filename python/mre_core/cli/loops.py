@@ -133,10 +133,10 @@ def _rows(table: "LoopTable") -> "Iterator[list[object]]":
 
 def _print(tables: "Sequence[LoopTable]") -> None:
     """Print a table a recording: the mean over its cycles, their scatter, and the model."""
-    from rich.markup import escape
     from rich.table import Table
 
     from ..loops import CONVENTIONS, QUANTITIES
+    from .escape import escape
     from .show import console
 
     out = console()

@@ -3,6 +3,7 @@
 Exit status: 0 done, 2 input or options wrong, 130 interrupted, 1 anything else.
 """
 
+import os
 import sys
 import warnings
 from collections.abc import Sequence
@@ -12,6 +13,7 @@ import click
 
 from .. import __version__
 from ..errors import MreError, one_line
+from ..interruption import sigterm_as_ctrl_c
 from .arguments import spread
 from .batch import batch
 from .demo import demo
@@ -25,6 +27,8 @@ from .schema import schema
 from .simulate import simulate
 from .study import study
 from .trial import trial
+
+_DEBUG = "MRE_CORE_TRACEBACK"
 
 
 @click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
@@ -54,7 +58,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command and return its exit status."""
     given = list(sys.argv[1:] if arguments is None else arguments)
     try:
-        with warnings.catch_warnings():
+        with sigterm_as_ctrl_c(), warnings.catch_warnings():
             warnings.simplefilter("default")
             warnings.showwarning = _show_warning
             status = cli.main(spread(given), prog_name="mre-core", standalone_mode=False)
@@ -70,13 +74,22 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _fail(str(error), 2)
     except ValueError as error:
         if "null byte" not in str(error):
-            raise
+            return _unforeseen(error)
         return _fail("a file name holds a null byte: wanted a name without", 2)
     except (KeyboardInterrupt, click.Abort):
         return _fail("interrupted", 130)
     except BrokenPipeError:  # whoever read the output has seen enough
         sys.stderr.close()
         return 1
+    except Exception as error:
+        return _unforeseen(error)
+
+
+def _unforeseen(error: Exception) -> int:
+    if os.environ.get(_DEBUG):
+        raise error
+    text = f"{type(error).__name__}: {error}"
+    return _fail(f"please report this with its input: {text} ({_DEBUG}=1 shows where)", 1)
 
 
 def _fail(message: str, status: int) -> int:

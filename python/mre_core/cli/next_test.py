@@ -35,6 +35,7 @@ def next_test(folder: Path, out: Path, quiet: bool, **limits: float | None) -> N
     import numpy as np
     import pandas as pd
 
+    from ..errors import one_line
     from ..next_test import command, read_proposal
     from ..output import staged_beside
     from .settings import name_beside, write_settings
@@ -50,4 +51,6 @@ def next_test(folder: Path, out: Path, quiet: bool, **limits: float | None) -> N
         write_settings(stage, out.parent, name_beside(out))
     if not quiet:
         far = np.abs(signal.displacement).max()
-        click.echo(f"{out}: {proposal['why']}; {len(signal.time)} samples, up to {far:.3g} mm")
+        click.echo(
+            f"{out}: {one_line(str(proposal.get('why')))}; {len(signal.time)} samples, up to {far:.3g} mm"
+        )

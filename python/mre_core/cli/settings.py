@@ -28,6 +28,8 @@ def read_config(context: click.Context, _: click.Parameter, value: Path | None) 
         content = tomllib.loads(value.read_text(encoding="utf-8"))
     except OSError as error:
         raise InputError(f"cannot be read: {error.strerror}", file=file) from None
+    except RecursionError:
+        raise InputError("is not TOML: it is nested too deeply", file=file) from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise InputError(f"is not TOML: {error}", file=file) from None
     content = _underscored(content)

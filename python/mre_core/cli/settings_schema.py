@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ..errors import shown
+
 if TYPE_CHECKING:
     from pydantic import BaseModel
 
@@ -93,9 +95,11 @@ def problem_in(content: Mapping[str, Any]) -> tuple[str, str] | None:
             hint = f" (nearest: {near[0]})" if near else ""
             table = f" in [{place[0]}]" if len(place) > 1 else ""
             return f"unknown key '{place[-1]}'{table}{hint}", ", ".join(sorted(known))
-        key = next(part for part in place if part not in commands())
+        key = next((part for part in place if part not in commands()), None)
+        if key is None:
+            return f"[{place[0]}] is {shown(first['input'])}", "a table of options"
         table = f"[{place[0]}] " if place[0] in commands() else ""
-        return f"{table}--{key.replace('_', '-')} is {first['input']!r}", _wanted(first["msg"])
+        return f"{table}--{key.replace('_', '-')} is {shown(first['input'])}", _wanted(first["msg"])
     return None
 
 

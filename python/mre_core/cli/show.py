@@ -26,10 +26,10 @@ def console() -> "Console":
 
 def print_diagnosis(found: "Diagnosis") -> None:
     """Verdict, effects with their parameters, where, and the fit."""
-    from rich.markup import escape
     from rich.table import Table
 
     from .. import words
+    from .escape import escape
 
     out = console()
     out.print(f"[bold]{found.verdict or 'interrupted'}[/bold]: {escape(str(found))}")

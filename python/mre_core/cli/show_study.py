@@ -49,8 +49,9 @@ def stages() -> Iterator[OnProgress]:
 
 def print_study(found: "Study") -> None:
     """Show whose recordings these are, and every claim of the paper with what is found."""
-    from rich.markup import escape
     from rich.table import Table
+
+    from .escape import escape
 
     out = console()
     out.print(escape(found.note))

@@ -103,9 +103,9 @@ def open_(folder: Path, answers: Path | None, seal: str | None, as_json: bool, t
 
 
 def _print(found: "Opening") -> None:
-    from rich.markup import escape
     from rich.table import Table
 
+    from .escape import escape
     from .show import console
 
     out = console()

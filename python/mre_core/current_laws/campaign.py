@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from .._core import Recording
 from ..errors import InputError
-from ..grouping import same_level
+from ..grouping import each_of, same_level
 from .factors import DirectFactor, Samples, SinhFactor, triangle
 from .law import Dependence, Law
 from .shapes import ShapeBox, shape_boxes
@@ -129,7 +129,7 @@ class Campaign:
 
 
 def read_campaign(
-    recordings: Iterable[Recording],
+    recordings: Recording | Iterable[Recording],
     structure: Structure,
     bounds: Mapping[str, tuple[float, float]],
     over: str,
@@ -151,7 +151,7 @@ def read_campaign(
     farthest = fastest = strongest = weights = 0.0
     samples = 0
     currents: set[float | None] = set()
-    for recording in recordings:
+    for recording in each_of(recordings):
         force = recording.force
         if force is None:
             raise InputError(f"recording '{recording.name}' has no force", wanted="a force to fit")

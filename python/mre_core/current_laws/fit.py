@@ -51,7 +51,7 @@ class LawFit:
 
 
 def fit_laws(
-    recordings: Iterable[Recording],
+    recordings: Recording | Iterable[Recording],
     model: str = "sinh",
     laws: Mapping[str, str] | None = None,
     shared: Sequence[str] = (),
@@ -64,7 +64,7 @@ def fit_laws(
 
     Parameters
     ----------
-    recordings : iterable of Recording
+    recordings : Recording or iterable of them
         With force and current, which may change within a recording. For `sinh` and `kelvin_voigt` they are
         read once, one after the other, and only a factor of 27 columns is kept for every current: a
         generator that loads them needs the memory of one.

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import InputError
+from ..stored import number
 
 LAWS = ("constant", "linear", "saturating", "quadratic", "free")
 """Simple ones first."""
@@ -99,10 +100,11 @@ class Dependence:
         InputError
             An unknown law, currents that do not rise, another number of values, or one that is not finite.
         """
-        kind, nodes = str(content["law"]), tuple(map(float, content["at"]))
-        values = tuple(map(float, content["value"]))
+        kind = str(content["law"])
+        nodes = tuple(number(value, f"a current of a {kind} law") for value in content["at"])
+        values = tuple(number(value, f"a value of a {kind} law") for value in content["value"])
         saturation = content.get("saturation")
-        saturation = None if saturation is None else float(saturation)
+        saturation = None if saturation is None else number(saturation, "saturation")
         if kind not in LAWS:
             raise InputError(f"the law is {kind!r}", wanted=f"one of {', '.join(LAWS)}")
         if len(nodes) != len(values) or not nodes or list(nodes) != sorted(set(nodes)):

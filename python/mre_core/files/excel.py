@@ -1,5 +1,6 @@
 """Excel workbooks (.xlsx, .xlsm, .xls): every sheet with numbers is a table."""
 
+from contextlib import closing
 from pathlib import Path
 from typing import Any, Final
 
@@ -8,7 +9,7 @@ from .arrays import readable
 from .dialect import Dialect
 from .extras import need
 from .layout import Rows, find_block
-from .limits import check_archive, check_values
+from .limits import check_archive, check_sheet, check_values
 from .options import ReadOptions
 from .table import MemoryTable, NoTableError, Table
 
@@ -48,15 +49,36 @@ def read(path: Path, options: ReadOptions) -> list[Table]:
 
 
 def _sheets(path: Path, file: str) -> dict[str, Any]:
-    import pandas as pd
-
-    need("openpyxl", "excel", file=file)
+    openpyxl = need("openpyxl", "excel", file=file)
     check_archive(path)
     try:
-        sheets = pd.read_excel(path, sheet_name=None, header=None, dtype=object, engine="openpyxl")
+        # Opened here, because openpyxl leaves a broken file open.
+        with (
+            path.open("rb") as raw,
+            closing(openpyxl.load_workbook(raw, read_only=True, data_only=True, keep_links=False)) as book,
+        ):
+            return {str(sheet.title): _grid(sheet, file) for sheet in book.worksheets}
+    except InputError:
+        raise
     except Exception as error:  # openpyxl lets pass those of zip, XML and its own
         raise _broken(error, file) from None
-    return {str(name): sheet.to_numpy() for name, sheet in sheets.items()}
+
+
+def _grid(sheet: Any, file: str) -> Any:
+    """Read the cells of a sheet, and stop where there are more than a sheet of numbers has."""
+    import numpy as np
+
+    sheet.reset_dimensions()  # what a file says of them need not be true
+    rows: list[Any] = []
+    count = 0
+    for row in sheet.iter_rows(values_only=True):
+        count += len(row)
+        check_sheet(len(rows) + 1, len(row), count, file)
+        rows.append(row)
+    grid = np.full((len(rows), max(map(len, rows), default=0)), None, dtype=object)
+    for cells, row in zip(grid, rows, strict=True):
+        cells[: len(row)] = row
+    return grid
 
 
 def _old_sheets(path: Path, file: str) -> dict[str, Any]:

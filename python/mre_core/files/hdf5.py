@@ -6,7 +6,7 @@ from typing import Any, Final
 from ..errors import InputError
 from .arrays import Series, tables_of
 from .extras import need
-from .limits import check_values
+from .limits import check_own, check_values
 from .options import ReadOptions
 from .table import NoTableError, Table
 
@@ -41,7 +41,8 @@ def read(path: Path, options: ReadOptions) -> list[Table]:
         if not isinstance(item, h5py.Dataset) or item.ndim not in (1, 2) or item.dtype.kind not in "iufV":
             return
         folder, _, last = name.rpartition("/")
-        check_values(sum(one.values.size for one in series) + item.size, file)
+        check_own(item, file)
+        check_values(sum(one.values.nbytes for one in series) // 8 + item.nbytes // 8, file)
         unit = next((item.attrs[key] for key in _UNIT_KEYS if key in item.attrs), None)
         series.append(Series(folder, last, item[()], unit))
 

@@ -1,12 +1,17 @@
 """Sizes that no recording of a rig has: a small file can unpack to more than the memory."""
 
 from pathlib import Path
-from typing import Final
+from typing import Any, Final
 
 from ..errors import InputError
 
 MOST_BYTES: Final = 2 * 2**30
 MOST_VALUES: Final = 2 * 10**8
+MOST_UNPACKED: Final = 2**29
+"""Bytes of a workbook: a sheet that is full of numbers has less."""
+MOST_ROWS: Final = 2**20
+MOST_COLUMNS: Final = 1000
+MOST_CELLS: Final = 2 * 10**7
 
 
 def read_bytes(path: Path) -> bytes:
@@ -47,6 +52,9 @@ def check_file(path: Path) -> None:
     InputError
         It is missing, not readable, no regular file or too large.
     """
+    if not is_text(str(path)):
+        wanted = "another name: it goes into results"
+        raise InputError("its name is no text in UTF-8", file=str(path), wanted=wanted)
     try:
         size = path.stat().st_size
         if path.is_dir():
@@ -61,6 +69,14 @@ def check_file(path: Path) -> None:
     if size > MOST_BYTES:
         wanted = f"at most {MOST_BYTES / 2**30:.0f} GiB (mre_core.read_chunks reads CSV of any size)"
         raise InputError(f"has {size / 2**30:.1f} GiB", file=str(path), value=size, wanted=wanted)
+
+
+def is_text(name: str) -> bool:
+    """Tell whether a name can be written: one of other bytes than UTF-8, or with a null byte, cannot."""
+    try:
+        return b"\0" not in name.encode()
+    except UnicodeEncodeError:
+        return False
 
 
 def check_values(count: int, file: str) -> None:
@@ -83,6 +99,26 @@ def check_values(count: int, file: str) -> None:
         raise InputError(problem, file=file, value=count, wanted=f"at most {MOST_VALUES:.0e}")
 
 
+def check_own(dataset: Any, file: str) -> None:
+    """Refuse a dataset of HDF5 whose values are read from other files.
+
+    Parameters
+    ----------
+    dataset : h5py.Dataset
+        The dataset.
+    file : str
+        The file that it is in.
+
+    Raises
+    ------
+    InputError
+        Its values lie elsewhere.
+    """
+    if dataset.external or dataset.is_virtual:
+        problem = f"the values of '{dataset.name}' lie in another file"
+        raise InputError(problem, file=file, wanted="a file that holds them itself")
+
+
 def check_archive(path: Path) -> None:
     """Refuse a zip archive, such as an .xlsx, that unpacks to an absurd size.
 
@@ -103,9 +139,37 @@ def check_archive(path: Path) -> None:
             size = sum(member.file_size for member in archive.infolist())
     except zipfile.BadZipFile as error:
         raise InputError(f"cannot be read: {error}", file=str(path), wanted="a whole file") from None
-    if size > MOST_BYTES:
-        wanted = f"at most {MOST_BYTES / 2**30:.0f} GiB"
-        raise InputError(f"unpacks to {size / 2**30:.1f} GiB", file=str(path), value=size, wanted=wanted)
+    if size > MOST_UNPACKED:
+        wanted = f"at most {MOST_UNPACKED / 2**20:.0f} MiB"
+        raise InputError(f"unpacks to {size / 2**20:.0f} MiB", file=str(path), value=size, wanted=wanted)
+
+
+def check_sheet(rows: int, columns: int, cells: int, file: str) -> None:
+    """Refuse a sheet that goes on and on.
+
+    Parameters
+    ----------
+    rows : int
+        Rows so far.
+    columns : int
+        Of the last one.
+    cells : int
+        Cells so far, empty ones included.
+    file : str
+        The file.
+
+    Raises
+    ------
+    InputError
+        There are too many.
+    """
+    for found, most, what in (
+        (rows, MOST_ROWS, "rows"),
+        (columns, MOST_COLUMNS, "columns"),
+        (cells, MOST_CELLS, "cells"),
+    ):
+        if found > most:
+            raise InputError(f"has a sheet of {found} {what}", file=file, wanted=f"at most {most} {what}")
 
 
 def _nearest(path: Path) -> str:

@@ -1,5 +1,6 @@
 """MATLAB .mat, versions 4 to 7.3: vectors of equal length in one workspace or struct are a table."""
 
+import math
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, Final
@@ -11,6 +12,7 @@ from .matlab73 import series_73
 from .options import ReadOptions
 from .table import NoTableError, Table
 
+_NO_NUMBERS: Final = {"cell", "char", "function", "object", "opaque", "sparse", "unknown"}
 _COMPRESSED: Final = 15
 """miCOMPRESSED of the format, version 5."""
 
@@ -60,7 +62,10 @@ def _series(path: Path) -> tuple[list[Series], list[str]]:
     try:
         check_values(_unpacked(path) // 8, file)
         shapes = scipy_io.whosmat(path)
-        content = scipy_io.loadmat(path, squeeze_me=True, struct_as_record=False)
+        for name, shape, _ in shapes:
+            check_values(math.prod(shape), f"{file}: variable '{name}'")
+        wanted = [name for name, _, kind in shapes if kind not in _NO_NUMBERS]
+        content = scipy_io.loadmat(path, squeeze_me=True, struct_as_record=False, variable_names=wanted)
     except InputError:
         raise
     except Exception as error:  # scipy has no error of its own for a broken file
@@ -92,12 +97,15 @@ def _unpacked(path: Path) -> int:
     import struct
     import zlib
 
-    total = 0
+    total, length = 0, path.stat().st_size
     with path.open("rb") as opened:
         order = {b"IM": "<", b"MI": ">"}.get(opened.read(128)[126:128])
         while order and len(tag := opened.read(8)) == 8:
             kind, size = struct.unpack(f"{order}II", tag)
             following = opened.tell() + size
+            if following > length:  # SciPy would read beyond what is there
+                problem = "cannot be read: it ends within a variable"
+                raise InputError(problem, file=str(path), wanted="a whole .mat file")
             if kind == _COMPRESSED:
                 inside = zlib.decompressobj().decompress(opened.read(min(size, 1024)), 8)
                 size = struct.unpack(f"{order}II", inside)[1] if len(inside) == 8 else size

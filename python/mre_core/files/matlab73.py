@@ -6,7 +6,7 @@ from typing import Any, Final
 from ..errors import InputError
 from .arrays import Series
 from .extras import need
-from .limits import check_values
+from .limits import check_own, check_values
 
 _NUMBERS: Final = {
     b"double",
@@ -55,12 +55,13 @@ def series_73(path: Path) -> tuple[list[Series], list[str]]:
             for i, reference in enumerate(item[()].ravel(), 1):  # one field of an array of structs
                 read(f"{folder}({i})", name, item.file[reference])
         elif item.dtype.kind in "iuf" and item.ndim in (1, 2):
-            check_values(sum(one.values.size for one in series) + item.size, file)
+            check_own(item, file)
+            check_values(sum(one.values.nbytes for one in series) // 8 + item.nbytes // 8, file)
             series.append(Series(folder, name, item[()].T))
 
     def walk(folder: str, group: Any) -> None:
         for name, item in group.items():
-            if not name.startswith("#"):
+            if not name.startswith("#") and isinstance(group.get(name, getlink=True), h5py.HardLink):
                 read(folder, name, item)
 
     try:

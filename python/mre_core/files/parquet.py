@@ -37,10 +37,14 @@ def read(path: Path, options: ReadOptions) -> list[Table]:
     import pyarrow.parquet as parquet
 
     try:
-        with parquet.ParquetFile(path) as opened:
-            check_values(opened.metadata.num_rows * opened.metadata.num_columns, file)
+        # Text stays as a dictionary: a file of some kB can repeat a long one a million times.
+        texts = [field.name for field in parquet.read_schema(path) if _is_text(arrow, field.type)]
+        with parquet.ParquetFile(path, read_dictionary=texts) as opened:
+            check_values(_count(opened.metadata), file)
             table = opened.read()
-    except (arrow.ArrowException, OSError) as error:
+    except InputError:
+        raise
+    except (arrow.ArrowException, OSError, ValueError) as error:  # also names that are no text
         raise InputError(f"cannot be read: {error}", file=file, wanted="a whole Parquet file") from None
     if not table.num_rows:
         raise NoTableError("has no rows", file=file, wanted="rows of numbers")
@@ -53,6 +57,18 @@ def read(path: Path, options: ReadOptions) -> list[Table]:
             )
         columns.update([readable(header, column.to_numpy())])
     return [MemoryTable(file, columns, notes=["Parquet"])]
+
+
+def _is_text(arrow: Any, kind: Any) -> bool:
+    types = arrow.types
+    return any(test(kind) for test in (types.is_string, types.is_large_string, types.is_binary))
+
+
+def _count(metadata: Any) -> int:
+    """Values in all columns, those in lists included."""
+    groups = [metadata.row_group(i) for i in range(metadata.num_row_groups)]
+    counts = [group.column(j).num_values for group in groups for j in range(group.num_columns)]
+    return int(max(sum(counts), metadata.num_rows * metadata.num_columns))
 
 
 def _unit(metadata: Any) -> object:

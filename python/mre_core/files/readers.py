@@ -54,7 +54,11 @@ def open_tables(path: str | os.PathLike[str], options: ReadOptions = ReadOptions
     path = Path(path)
     check_file(path)
     reader = importlib.import_module(f".{READERS.get(path.suffix.lower(), 'text')}", __package__)
-    return chosen(reader.read(path, options), options.table, str(path))
+    try:
+        tables = reader.read(path, options)
+    except MemoryError:
+        raise InputError("unpacks to more than the memory holds", file=str(path)) from None
+    return chosen(tables, options.table, str(path))
 
 
 def find_files(paths: Iterable[str | os.PathLike[str]]) -> list[Path]:

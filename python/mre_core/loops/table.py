@@ -10,6 +10,7 @@ import numpy as np
 from .._core import Recording
 from ..errors import InputError
 from ..findings import labels
+from ..grouping import each_of
 from ..model import Model, simulate
 from .cycles import find_cycles
 from .figures import CONVENTIONS, QUANTITIES, Convention, Loop, measure_loop
@@ -129,7 +130,7 @@ def loops(
     """
     if convention not in CONVENTIONS:
         raise InputError(f"the convention is {convention!r}", wanted=" or ".join(CONVENTIONS))
-    everything = [recordings] if isinstance(recordings, Recording) else list(recordings)
+    everything = list(each_of(recordings))
     if isinstance(model, str | os.PathLike):
         model = Model.load(model)
     return [

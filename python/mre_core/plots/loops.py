@@ -8,6 +8,7 @@ import numpy as np
 
 from .._core import Recording
 from ..errors import InputError
+from ..grouping import each_of
 from ..loops.cycles import find_cycles
 from ..model import Model, simulate
 from .style import MEASURED, MODEL, SEQUENCE, Look, new_figure, plain, styled, thin
@@ -44,7 +45,7 @@ def plot_loops(
     matplotlib.figure.Figure
         The last closed cycle of every recording, or all of it where none closes.
     """
-    everything = [recordings] if isinstance(recordings, Recording) else list(recordings)
+    everything = list(each_of(recordings))
     for recording in everything:
         if recording.force is None:
             raise InputError(f"recording '{recording.name}' has no force", wanted="a force to draw")

@@ -1,12 +1,12 @@
 """What lies in the folder of a trial, and how it is read."""
 
 import hashlib
-import json
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from ..errors import InputError
+from ..stored import read_json
 
 TRIAL = "mre-core/trial/1"
 ANSWERS = "mre-core/trial-answers/1"
@@ -92,12 +92,7 @@ def read(path: Path, schema: str) -> dict[str, Any]:
     InputError
         It is not there, no JSON, or of another schema.
     """
-    try:
-        content = json.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(f"cannot be read: {error.strerror}", file=str(path)) from None
-    except ValueError as error:  # not UTF-8 or not JSON
-        raise InputError(f"is not JSON: {error}", file=str(path)) from None
+    content = read_json(path)
     found = content.get("schema") if isinstance(content, dict) else None
     if found != schema:
         raise InputError(f"schema is {found!r}", file=str(path), wanted=repr(schema))

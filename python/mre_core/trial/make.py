@@ -16,6 +16,8 @@ from .files import ANSWERS, TRIAL, Folder, digest, seal_of
 from .plan import standard
 from .workers import spread
 
+MOST_CASES = 100_000
+
 
 def make_trial(
     directory: str | os.PathLike[str],
@@ -58,8 +60,8 @@ def make_trial(
     taken = [path for path in (folder.trial, folder.answers, folder.root / "recordings") if path.exists()]
     if taken:
         raise InputError(f"holds {taken[0].name} already", file=str(folder.root), wanted="a new folder")
-    if isinstance(cases, int) and cases < 1:
-        raise InputError(f"cases is {cases}", wanted="at least 1")
+    if isinstance(cases, int) and not 1 <= cases <= MOST_CASES:
+        raise InputError(f"cases is {cases}", wanted=f"a whole number from 1 to {MOST_CASES}")
     if seed is not None and seed < 0:
         raise InputError(f"seed is {seed}", wanted="0 or more")
     drawn = secrets.randbits(128) if seed is None else seed

@@ -3,6 +3,7 @@
 use mre::assembly::Addition;
 use mre::effect::{self, CATALOGUE, Effect, Sizes};
 use mre::parameter::Parameter;
+use mre::recording::{LARGEST, SMALLEST};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyMapping};
 
@@ -87,11 +88,12 @@ pub(crate) fn addition((id, law, coefficients, shape): Given) -> PyResult<Additi
 
 /// Sizes of the recordings that effects were fitted to.
 pub(crate) fn sizes(given: &Bound<'_, PyMapping>) -> PyResult<Sizes> {
-    let wrong = |name: &str| MreError::new_err(format!("sizes have no usable '{name}': wanted a number"));
     let item = |name: &str| given.get_item(name).ok().filter(|value| !value.is_none());
     let number = |name: &str| -> PyResult<f64> {
         let value = item(name).and_then(|value| value.extract::<f64>().ok());
-        value.filter(|value| value.is_finite()).ok_or_else(|| wrong(name))
+        value
+            .filter(|value| (SMALLEST..=LARGEST).contains(value))
+            .ok_or_else(|| unusable(name, "a number above 0"))
     };
     Ok(Sizes {
         displacement: number("displacement")?,
@@ -102,10 +104,25 @@ pub(crate) fn sizes(given: &Bound<'_, PyMapping>) -> PyResult<Sizes> {
         total: number("total")?,
         path: number("path")?,
         energy: number("energy")?,
-        current: item("current").and_then(|value| value.extract::<[f64; 2]>().ok()).map(|[a, b]| (a, b)),
-        current_varies: item("current_varies").and_then(|v| v.extract().ok()).unwrap_or(false),
-        quantum: item("quantum").and_then(|value| value.extract().ok()),
+        current: item("current").map(|value| ends(&value)).transpose()?,
+        current_varies: match item("current_varies") {
+            Some(value) => value.extract().map_err(|_| unusable("current_varies", "true or false"))?,
+            None => false,
+        },
+        quantum: item("quantum").map(|_| number("quantum")).transpose()?,
     })
+}
+
+/// Lowest and highest current in A.
+fn ends(value: &Bound<'_, PyAny>) -> PyResult<(f64, f64)> {
+    match value.extract::<[f64; 2]>() {
+        Ok([low, high]) if -LARGEST <= low && low <= high && high <= LARGEST => Ok((low, high)),
+        _ => Err(unusable("current", "the lowest and the highest, in A")),
+    }
+}
+
+fn unusable(name: &str, wanted: &str) -> PyErr {
+    MreError::new_err(format!("sizes have no usable '{name}': wanted {wanted}"))
 }
 
 /// Sizes for what does not depend on them: how many parameters a law has, and their names and limits.

@@ -45,7 +45,7 @@ pub(crate) struct Problem {
     recordings: Vec<Recording>,
 }
 
-type NewArguments<'py> = ((Vec<Recording>, &'static str, HashMap<String, (f64, f64)>), Bound<'py, PyDict>);
+type NewArguments<'py> = ((Vec<Recording>, &'static str, Bound<'py, PyDict>), Bound<'py, PyDict>);
 
 fn to_weights(value: Option<&Bound<'_, PyAny>>) -> PyResult<Weights> {
     let Some(value) = value else { return Ok(Weights::Samples) };
@@ -206,8 +206,10 @@ impl Problem {
         if self.recordings.is_empty() {
             return Err(PyTypeError::new_err("a streamed problem keeps no samples: it cannot be pickled"));
         }
-        let bounds: HashMap<String, (f64, f64)> =
-            self.inner.parameters().iter().map(|p| (p.name.clone(), (p.lower, p.upper))).collect();
+        let bounds = PyDict::new(py); // in their order: the same problem, the same bytes
+        for p in self.inner.parameters() {
+            bounds.set_item(&p.name, (p.lower, p.upper))?;
+        }
         let keywords = PyDict::new(py);
         keywords.set_item("weights", PyArray1::from_slice(py, self.inner.weights()))?;
         Ok(((self.recordings(), self.model(), bounds), keywords))

@@ -27,6 +27,18 @@ pub enum Error {
         /// The value found.
         value: f64,
     },
+    /// A sample is so large that nothing measured it: its square would soon overflow.
+    #[error("{what} is {value:e} at sample {index}: every sample has to be within {largest:e}")]
+    TooLarge {
+        /// Name of the series.
+        what: &'static str,
+        /// Zero-based sample.
+        index: usize,
+        /// The value found.
+        value: f64,
+        /// Largest absolute value that is taken.
+        largest: f64,
+    },
     /// Time stands still or runs backward.
     #[error(
         "time goes from {before} s to {after} s at sample {index}: it has to increase from sample to sample"

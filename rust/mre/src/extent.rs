@@ -6,7 +6,7 @@ use nalgebra::{Matrix4, Vector4};
 
 use crate::error::{Error, Result};
 use crate::kernel::elementary::sinh;
-use crate::recording::Recording;
+use crate::recording::{Recording, SMALLEST};
 
 /// Sizes over all recordings of a problem.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -94,16 +94,26 @@ impl Extent {
     }
 }
 
+/// What is wrong with forces of which the largest is too small to be identified.
+pub(crate) fn too_small(largest: f64) -> String {
+    if largest > 0.0 {
+        format!("the force is at most {largest:e} N: nothing to identify below {SMALLEST:e} N")
+    } else {
+        "the force is zero throughout: nothing to identify".into()
+    }
+}
+
 fn scored_force(recording: &Recording) -> Result<&[f64]> {
     let problem = match recording.force() {
-        None => "no force: an identification needs one",
+        None => "no force: an identification needs one".into(),
         Some(force) => {
             let scored = &force[recording.scored()];
-            if scored.iter().any(|f| *f != 0.0) {
+            let largest = scored.iter().fold(0.0_f64, |most, f| most.max(f.abs()));
+            if largest >= SMALLEST {
                 return Ok(scored);
             }
-            "the force is zero throughout: nothing to identify"
+            too_small(largest)
         }
     };
-    Err(Error::Recording(problem.into()).in_recording(recording.name()))
+    Err(Error::Recording(problem).in_recording(recording.name()))
 }

@@ -16,10 +16,11 @@ use crate::assembly::Assembly;
 use crate::kernel::filter::dot;
 use crate::recording::Recording;
 
-/// A residual below this share of the force's rms may well be noise.
-const LARGE: f64 = 0.05;
-/// Features plainly predict a residual of which they leave less than this share, rms.
-const PLAIN: f64 = 0.7;
+/// A residual below this share of the force's rms may well be noise: at first, and of a wider model where what
+/// a narrower one left was plainly not noise.
+const LARGE: [f64; 2] = [0.05, 0.02];
+/// Features plainly predict a residual of which they leave less than this share, rms; the same two.
+const PLAIN: [f64; 2] = [0.7, 0.9];
 /// Blocks of a recording.
 const BLOCKS: usize = 12;
 /// Folds that the blocks belong to.
@@ -29,8 +30,7 @@ const RIDGE: f64 = 1e-3;
 
 /// Rms in N of the noise at most, if residuals in N of the scored samples are plainly not noise alone.
 ///
-/// What a narrower model left under `before` was not noise: where that was plain, a large residual of a wider
-/// one is not taken for noise either.
+/// `before` is the noise beside a narrower model.
 pub(super) fn find(assembly: &Assembly, residuals: &[Vec<f64>], before: &Noise) -> Option<f64> {
     let recordings = assembly.campaign().recordings();
     let spread = |r: &Arc<Recording>| {
@@ -39,16 +39,13 @@ pub(super) fn find(assembly: &Assembly, residuals: &[Vec<f64>], before: &Noise) 
         force.iter().map(|f| (f - mean).powi(2)).sum::<f64>()
     };
     let square = |series: &[Vec<f64>]| series.iter().map(|e| dot(e, e)).sum::<f64>();
-    if square(residuals) < LARGE.powi(2) * recordings.iter().map(spread).sum::<f64>() {
+    let again = usize::from(before.hidden());
+    if square(residuals) < LARGE[again].powi(2) * recordings.iter().map(spread).sum::<f64>() {
         return None;
     }
     let left: Vec<Vec<f64>> =
         residuals.par_iter().enumerate().map(|(r, e)| predicted_crosswise(assembly, r, e)).collect();
-    if square(&left) < PLAIN.powi(2) * square(residuals) {
-        Some(rms(&left))
-    } else {
-        before.hidden().then(|| rms(residuals))
-    }
+    (square(&left) < PLAIN[again].powi(2) * square(residuals)).then(|| rms(&left))
 }
 
 /// A residual less what features, fitted to the other blocks, predict of each block.

@@ -54,7 +54,7 @@ impl Effect for Backlash {
     }
 
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
-        vec![within("g", "mm", 0.0, 0.5 * sizes.displacement)]
+        vec![Parameter { smallest: 0.0, ..within("g", "mm", 0.0, 0.5 * sizes.displacement) }]
     }
 
     fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {

@@ -88,6 +88,9 @@ pub(crate) fn refit(problem: &Problem, start: &[f64], cancel: &AtomicBool) -> Ve
         return found.values;
     }
     let projection = Projection::new(problem, cancel);
+    if projection.dimension() == 0 {
+        return projection.solve(&[]).0;
+    }
     let at = projection.unit_shapes(start);
     let value = projection.solve(&at).1;
     polish(problem, &projection, vec![Point { at, value }], 0.02, 1, StopReason::Iterations).values

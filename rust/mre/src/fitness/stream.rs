@@ -7,14 +7,15 @@ use std::sync::Arc;
 
 use super::{Kernel, Problem, bounds};
 use crate::error::{Error, Result};
-use crate::extent::Extent;
+use crate::extent::{Extent, too_small};
 use crate::kernel::bessel::{LARGEST, nodes};
 use crate::kernel::sinh_compressed::{Motion, OTHERS, tree};
 use crate::kernel::triangle::Triangle;
 use crate::kernel::{Sinh, SinhCompressed};
 use crate::law::Law;
 use crate::model::Model;
-use crate::recording::MIN_SAMPLES;
+use crate::recording::check::usable;
+use crate::recording::{LARGEST as LARGEST_SAMPLE, MIN_SAMPLES, SMALLEST};
 
 /// Samples that are worked in together, in parallel: fixed, so that the result does not depend on how
 /// the samples were cut into chunks.
@@ -47,9 +48,10 @@ impl Stream {
     /// A largest displacement that is not positive, or bounds as in [`Problem::new`] that cannot be; a
     /// beta beyond 25 / `largest_displacement`, which would need every sample.
     pub fn new(largest_displacement: f64, bounds: &[(String, f64, f64)]) -> Result<Self> {
-        if !(largest_displacement.is_finite() && largest_displacement > 0.0) {
-            let wanted = "a positive number of mm";
-            return Err(Error::setting("largest_displacement", largest_displacement, wanted));
+        if !(SMALLEST..=LARGEST_SAMPLE).contains(&largest_displacement) {
+            let wanted = format!("a positive number of mm, from {SMALLEST:e} to {LARGEST_SAMPLE:e}");
+            let given = format!("{largest_displacement:?}");
+            return Err(Error::setting("largest_displacement", given, wanted));
         }
         let extent = Extent {
             displacement: largest_displacement,
@@ -118,9 +120,7 @@ impl Stream {
                 let wanted = format!("{expected}, as displacement");
                 return Err(Error::setting(format!("number of samples of {what}"), values.len(), wanted));
             }
-            if let Some(index) = values.iter().position(|v| !v.is_finite()) {
-                return Err(Error::NotFinite { what, index, value: values[index] });
-            }
+            usable(what, values)?;
         }
         let most = self.extent.displacement;
         match series[0].1.iter().position(|x| x.abs() > most) {
@@ -153,13 +153,13 @@ impl Stream {
             _ if self.samples < MIN_SAMPLES => {
                 format!("{} samples: at least {MIN_SAMPLES} are needed", self.samples)
             }
-            (low, high) if low == high => {
+            (low, high) if high - low < SMALLEST => {
                 format!("displacement is {low} mm throughout: a moving device is needed")
             }
             _ if self.extent.velocity == 0.0 => {
                 "velocity is zero throughout, though the displacement changes".into()
             }
-            _ if self.extent.force == 0.0 => "the force is zero throughout: nothing to identify".into(),
+            _ if self.extent.force < SMALLEST => too_small(self.extent.force),
             _ => return self.compressed(),
         };
         Err(Error::Recording(problem))

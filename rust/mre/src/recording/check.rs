@@ -1,6 +1,6 @@
 //! What makes a recording usable.
 
-use super::{Condition, MIN_SAMPLES, Series, extent};
+use super::{Condition, LARGEST, MIN_SAMPLES, SMALLEST, Series, extent};
 use crate::error::{Error, Result};
 
 pub(super) fn series(series: &Series) -> Result<()> {
@@ -8,7 +8,7 @@ pub(super) fn series(series: &Series) -> Result<()> {
     if n < MIN_SAMPLES {
         return Err(Error::Recording(format!("{n} samples: at least {MIN_SAMPLES} are needed")));
     }
-    finite("time", &series.time)?;
+    usable("time", &series.time)?;
     for (i, pair) in series.time.windows(2).enumerate() {
         if pair[1] <= pair[0] {
             return Err(Error::Time { index: i + 1, before: pair[0], after: pair[1] });
@@ -21,7 +21,7 @@ pub(super) fn series(series: &Series) -> Result<()> {
     for (what, condition) in [("current", &series.current), ("temperature", &series.temperature)] {
         match condition {
             Condition::Missing => {}
-            Condition::Constant(value) => finite(what, std::slice::from_ref(value))?,
+            Condition::Constant(value) => usable(what, std::slice::from_ref(value))?,
             Condition::Series(values) => columns.push((what, Some(values))),
         }
     }
@@ -29,7 +29,7 @@ pub(super) fn series(series: &Series) -> Result<()> {
         if values.len() != n {
             return Err(Error::Length { what, expected: n, got: values.len() });
         }
-        finite(what, values)?;
+        usable(what, values)?;
     }
     let (low, high) = extent(&series.displacement);
     if low == high {
@@ -37,12 +37,22 @@ pub(super) fn series(series: &Series) -> Result<()> {
             "displacement is {low} mm throughout: a moving device is needed"
         )));
     }
+    if high - low < SMALLEST {
+        return Err(Error::Recording(format!(
+            "displacement changes by {:e} mm in all: a device that moves by at least {SMALLEST:e} mm is needed",
+            high - low
+        )));
+    }
     Ok(())
 }
 
-fn finite(what: &'static str, values: &[f64]) -> Result<()> {
-    match values.iter().position(|v| !v.is_finite()) {
-        Some(index) => Err(Error::NotFinite { what, index, value: values[index] }),
-        None => Ok(()),
-    }
+/// Refuse a series with a sample that is not finite or beyond [`LARGEST`].
+pub(crate) fn usable(what: &'static str, values: &[f64]) -> Result<()> {
+    let Some(index) = values.iter().position(|v| v.is_nan() || v.abs() > LARGEST) else { return Ok(()) };
+    let value = values[index];
+    Err(if value.is_finite() {
+        Error::TooLarge { what, index, value, largest: LARGEST }
+    } else {
+        Error::NotFinite { what, index, value }
+    })
 }

@@ -2,7 +2,7 @@
 //!
 //! Units: millimetre, newton, second, ampere, degree Celsius.
 
-mod check;
+pub(crate) mod check;
 mod condition;
 mod cut;
 
@@ -15,6 +15,13 @@ use crate::velocity;
 
 /// Fewest samples from which a velocity and five parameters can be told.
 pub const MIN_SAMPLES: usize = 8;
+
+/// Largest absolute value of a sample, in any unit: products of several of them stay finite.
+pub const LARGEST: f64 = 1e30;
+
+/// Least range of the displacement in mm, and least force in N that can be identified: squares of less
+/// would soon be zero.
+pub const SMALLEST: f64 = 1e-30;
 
 /// What a recording is made from.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,8 +57,8 @@ impl Recording {
     /// Check the series and derive the velocity where it is missing.
     ///
     /// # Errors
-    /// Different lengths, fewer than [`MIN_SAMPLES`], a value that is not finite, time that does not
-    /// increase, or a displacement that never changes.
+    /// Different lengths, fewer than [`MIN_SAMPLES`], a value that is not finite or beyond [`LARGEST`], time
+    /// that does not increase, or a displacement that changes by less than [`SMALLEST`].
     pub fn new(mut series: Series) -> Result<Self> {
         let name = series.name.clone();
         check::series(&series).map_err(|error| error.in_recording(&name))?;
@@ -59,6 +66,8 @@ impl Recording {
             (measured, None)
         } else {
             let derived = velocity::from_displacement(&series.time, &series.displacement);
+            check::usable("velocity from the displacement", &derived.velocity)
+                .map_err(|error| error.in_recording(&name))?;
             (derived.velocity, Some(derived.window))
         };
         let scored = 0..velocity.len();

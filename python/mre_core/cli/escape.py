@@ -1,0 +1,21 @@
+"""Text out of files, for a terminal."""
+
+from ..errors import visible
+
+
+def escape(text: str) -> str:
+    """Make it show as it is: no markup of ours, no command to the terminal.
+
+    Parameters
+    ----------
+    text : str
+        Any text.
+
+    Returns
+    -------
+    str
+        What to print with markup.
+    """
+    from rich.markup import escape as without_markup
+
+    return without_markup(visible(text))

@@ -1,0 +1,1 @@
+"""The table of bad inputs, and the page of the documentation that is printed from it."""

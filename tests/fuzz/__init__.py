@@ -1,0 +1,1 @@
+"""Random input of every kind: what is drawn, and how long it is tried."""

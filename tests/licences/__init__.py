@@ -1,0 +1,1 @@
+"""What others' work the package is made of, under which licences."""

@@ -1,0 +1,1 @@
+"""Commands that are stopped at random moments, and what has to hold then."""
