@@ -47,6 +47,20 @@ pub(crate) fn fit_uncertainty<'py>(
     Ok(dict)
 }
 
+/// What one recording adds to the covariance of a joint fit: `J' V J`, and the independent samples in it.
+#[pyfunction]
+pub(crate) fn noise_products<'py>(
+    py: Python<'py>,
+    tangents: Vec<Bound<'py, PyAny>>,
+    residual: &Bound<'py, PyAny>,
+    rate: f64,
+) -> PyResult<(Bound<'py, PyArray2<f64>>, f64)> {
+    let residual = vector("residual", residual)?;
+    let columns = tangents.iter().map(|c| vector("tangents", c)).collect::<PyResult<Vec<_>>>()?;
+    let found = uncertainty::products(&columns, &residual, rate).map_err(to_python)?;
+    Ok((matrix(py, &found.noisy, columns.len().max(1))?, found.independent))
+}
+
 /// Profile-likelihood intervals.
 #[pyfunction]
 #[pyo3(signature = (problem, x, level=0.95, *, threads=None))]
