@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 import pytest
 from mre_core import Recording
-from rig import Cli, force_of, made_of, motion, record, write_csv
+from rig import Cli, made_of, motion, record, write_csv
 from scipy.signal import lfilter  # type: ignore[import-untyped]
 
 CURRENTS = (0.0, 0.5, 1.0, 2.0)
@@ -118,12 +118,13 @@ def test_the_command_shows_and_keeps_them(cli: Cli, tmp_path: Path) -> None:
     files = []
     for k, recording in enumerate(campaign(2)):
         files.append(write_csv(tmp_path / f"{k}_{recording.current_level:g}A.csv", recording))
-        assert np.isfinite(force_of(recording)).all()
+    text = files[0].read_text(encoding="utf-8")
+    files[0].write_text(text.replace("time_s", "time", 1), encoding="utf-8")
     out = tmp_path / "out"
     laws = [word for name, kind in LAWS.items() for word in ("--law", f"{name}={kind}")]
     shared = ["--shared", "beta", "--shared", "F0", "--name-pattern", "{test}_{current}A"]
     status, shown, err = cli("laws", *files, "--model", "sinh", *laws, *shared, "--out", out)
-    assert (status, err) == (0, "")
+    assert (status, err.count("\n"), err.count("no unit")) == (0, 1, 1)  # said once, though it is read twice
     table = pd.read_csv(out / "laws.csv", float_precision="round_trip")
     assert list(table) == ["parameter", "law", "at", "value", "unit", "low", "high"]
     assert ((table["low"] < table["value"]) & (table["value"] < table["high"])).all()

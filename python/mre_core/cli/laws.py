@@ -1,5 +1,6 @@
 """``mre-core laws``."""
 
+import warnings
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -89,9 +90,13 @@ def laws(
     interval = None if cut is None else read_interval(cut)
     parts = read_parts(exclude)
 
-    def read() -> "Iterator[Recording]":
+    def read(*, again: bool) -> "Iterator[Recording]":
         for path in recordings:  # one at a time: a campaign need not fit into memory
-            for found in load_all([path], mapping, conditions, name_pattern, reading):
+            with warnings.catch_warnings():
+                if again:  # what there is to say has been said
+                    warnings.simplefilter("ignore")
+                loaded = load_all([path], mapping, conditions, name_pattern, reading)
+            for found in loaded:
                 found = found if interval is None else found.cut(*interval)
                 yield found.exclude(*parts) if parts else found
 
@@ -99,9 +104,9 @@ def laws(
     with place as stage:
         with spinner("fitting", quiet=quiet):
             settings: dict[str, Any] = {"over": over, "bounds": read_bounds(bounds), **options}
-            kept = _Again(lambda: (r for r in read() if not _is_at(r, over, predict)))
+            kept = _Again(lambda again: (r for r in read(again=again) if not _is_at(r, over, predict)))
             found = fit_laws(kept, model, _laws(laws), shared, **settings)
-            left_out = [] if predict is None else (r for r in read() if _is_at(r, over, predict))
+            left_out = [] if predict is None else (r for r in read(again=True) if _is_at(r, over, predict))
             predicted = [measure_fit(found.model, recording) for recording in left_out]
         if predict is not None and not predicted:
             raise InputError(f"no recording at {predict:g}", wanted=f"the {over} of some recording")
@@ -119,11 +124,13 @@ def laws(
 class _Again:
     """Recordings that are read anew whenever they are gone through."""
 
-    def __init__(self, read: "Callable[[], Iterator[Recording]]") -> None:
+    def __init__(self, read: "Callable[[bool], Iterator[Recording]]") -> None:
         self._read = read
+        self._again = False
 
     def __iter__(self) -> "Iterator[Recording]":
-        return self._read()
+        again, self._again = self._again, True
+        return self._read(again)
 
 
 def _is_at(recording: "Recording", over: str, level: float | None) -> bool:
