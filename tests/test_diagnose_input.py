@@ -73,7 +73,6 @@ CASES = {
     "seed": Case(lambda: GOOD, ["seed is -1"], {"seed": -1}),
     "threads": Case(lambda: GOOD, ["threads is 0"], {"threads": 0}),
     "fixed without values": Case(lambda: GOOD, ["'sinh' and fixed", "model.json"], {"fixed": True}),
-    "fixed with effects": Case(lambda: GOOD, ["has effects"], {"base": WITH_MASS, "fixed": True}),
     "fixed without current": Case(
         lambda: GOOD, ["several levels", "'1Hz_4mm'"], {"base": TWO, "fixed": True}
     ),

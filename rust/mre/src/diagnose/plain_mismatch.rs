@@ -16,11 +16,14 @@ use crate::assembly::Assembly;
 use crate::kernel::filter::dot;
 use crate::recording::Recording;
 
-/// A residual below this share of the force's rms may well be noise: at first, and of a wider model where what
-/// a narrower one left was plainly not noise.
-const LARGE: [f64; 2] = [0.05, 0.02];
-/// Features plainly predict a residual of which they leave less than this share, rms; the same two.
-const PLAIN: [f64; 2] = [0.7, 0.9];
+/// A residual above this share of the force's rms is not noise where features predict it plainly, or where what
+/// a narrower model left was not.
+const LARGE: f64 = 0.05;
+/// Features plainly predict a residual of which they leave less than this share, rms.
+const PLAIN: f64 = 0.7;
+/// The same for a residual beside a wider model, once that of a narrower one was not noise.
+const STILL_LARGE: f64 = 0.02;
+const STILL_PLAIN: f64 = 0.9;
 /// Blocks of a recording.
 const BLOCKS: usize = 12;
 /// Folds that the blocks belong to.
@@ -39,13 +42,16 @@ pub(super) fn find(assembly: &Assembly, residuals: &[Vec<f64>], before: &Noise) 
         force.iter().map(|f| (f - mean).powi(2)).sum::<f64>()
     };
     let square = |series: &[Vec<f64>]| series.iter().map(|e| dot(e, e)).sum::<f64>();
-    let again = usize::from(before.hidden());
-    if square(residuals) < LARGE[again].powi(2) * recordings.iter().map(spread).sum::<f64>() {
+    let force = recordings.iter().map(spread).sum::<f64>();
+    let share = (square(residuals) / force).sqrt();
+    if share < if before.hidden() { STILL_LARGE } else { LARGE } {
         return None;
     }
     let left: Vec<Vec<f64>> =
         residuals.par_iter().enumerate().map(|(r, e)| predicted_crosswise(assembly, r, e)).collect();
-    (square(&left) < PLAIN[again].powi(2) * square(residuals)).then(|| rms(&left))
+    let unpredicted = (square(&left) / square(residuals)).sqrt();
+    let still = before.hidden() && (share >= LARGE || unpredicted < STILL_PLAIN);
+    (unpredicted < PLAIN || still).then(|| rms(&left).min(rms(residuals)))
 }
 
 /// A residual less what features, fitted to the other blocks, predict of each block.
