@@ -3,7 +3,7 @@
 use mre::uncertainty::{self, Estimate};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyList};
 
 use crate::array::{matrix, vector};
 use crate::error::{setting, to_python};
@@ -51,12 +51,12 @@ pub(crate) fn fit_uncertainty<'py>(
 #[pyfunction]
 pub(crate) fn noise_products<'py>(
     py: Python<'py>,
-    tangents: Vec<Bound<'py, PyAny>>,
+    tangents: &Bound<'py, PyList>,
     residual: &Bound<'py, PyAny>,
     rate: f64,
 ) -> PyResult<(Bound<'py, PyArray2<f64>>, f64)> {
     let residual = vector("residual", residual)?;
-    let columns = tangents.iter().map(|c| vector("tangents", c)).collect::<PyResult<Vec<_>>>()?;
+    let columns = tangents.iter().map(|c| vector("tangents", &c)).collect::<PyResult<Vec<_>>>()?;
     let found = uncertainty::products(&columns, &residual, rate).map_err(to_python)?;
     Ok((matrix(py, &found.noisy, columns.len().max(1))?, found.independent))
 }
