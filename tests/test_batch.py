@@ -153,7 +153,7 @@ def test_failures_stop_nothing(cli: Cli, tmp_path: Path) -> None:
     assert re.search(r"broken\.csv: line 3, column 'displacement_mm': .*'x'", errors["broken.csv"])
     assert errors["s.csv"] == "the same content as r001.csv"
     assert errors["twice"] == "b.csv: the same recording as a.csv"
-    assert errors["empty"] == "no CSV file in the folder"
+    assert errors["empty"] == "no recording in the folder"
     assert errors["pipe.csv"] == "pipe.csv: no regular file"
     assert all("\n" not in error for error in errors)
     assert all(name in shown for name in ("broken.csv", "s.csv", "twice", "empty", "pipe.csv"))
@@ -426,7 +426,7 @@ def test_refused(cli: Cli, five: Path, tmp_path: Path) -> None:
     )
     assert "both a model and a base are given" in refused(*sinh, "--base", "sinh")
     assert "the model is 'sin'" in refused(*good, "--model", "sin")
-    assert "no CSV file" in refused("batch", tmp_path, "--model", "sinh", *new)
+    assert "a folder without recordings, wanted" in refused("batch", tmp_path, "--model", "sinh", *new)
     assert "nowhere: cannot be read: No such file" in refused("batch", tmp_path / "nowhere", *sinh[2:], *new)
     assert "--seeds 3:1" in refused(*sinh, *new, "--seeds", "3:1")
     assert "both a seed and seeds" in refused(*sinh, *new, "--seeds", "1:3", "--seed", "1")

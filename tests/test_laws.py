@@ -361,7 +361,8 @@ def test_command(cli: Cli, tmp_path: Path) -> None:
     status, shown, err = cli(*arguments, "--config", config, "--predict", "0.5", "--out", out)
     assert (status, err) == (0, "")
     assert "predicted, not fitted" in shown
-    assert {file.name for file in out.iterdir()} == {"model.json", "laws.json", "laws.png", "settings.toml"}
+    names = {"model.json", "laws.json", "laws.csv", "laws.png", "settings.toml"}
+    assert {file.name for file in out.iterdir()} == names
     content = json.loads((out / "laws.json").read_text())
     assert {fit["current"] for fit in content["predicted"]} == {0.5}
     model = Model.load(out / "model.json")

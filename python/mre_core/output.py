@@ -69,6 +69,23 @@ def staged(directory: str | os.PathLike[str]) -> Iterator[Stage]:
         raise
 
 
+@contextmanager
+def staged_beside(path: str | os.PathLike[str]) -> Iterator[Stage]:
+    """Prepare the folder of a file that will be written, for it and for what goes beside it.
+
+    Raises
+    ------
+    InputError
+        The file cannot be written.
+    """
+    target = Path(path)
+    if target.exists() and not target.is_file():
+        what = "a folder" if target.is_dir() else "no regular file"
+        raise InputError(f"is {what}", file=str(target), wanted="the name of a file to write")
+    with staged(target.parent) as stage:
+        yield stage
+
+
 def write_file(path: str | os.PathLike[str], write: Callable[[Path], None]) -> None:
     """Write one file through a temporary name.
 
@@ -77,12 +94,8 @@ def write_file(path: str | os.PathLike[str], write: Callable[[Path], None]) -> N
     InputError
         It cannot be written.
     """
-    target = Path(path)
-    if target.exists() and not target.is_file():
-        what = "a folder" if target.is_dir() else "no regular file"
-        raise InputError(f"is {what}", file=str(target), wanted="the name of a file to write")
-    with staged(target.parent) as stage:
-        write(stage.path(target.name))
+    with staged_beside(path) as stage:
+        write(stage.path(Path(path).name))
 
 
 def _prepared(target: Path, made: list[Path]) -> Path:

@@ -84,7 +84,7 @@ CAMPAIGNS = {
     "next-test: a current that is a word": proposal("current_A is 'ab'", "the lowest", current_A="ab"),
     "batch: no folder": Command(["batch", "no", *BATCH[2:]], ["no: cannot be read", "recordings"]),
     "batch: a file for a folder": Command(["batch", "a.csv", *BATCH[2:]], ["a.csv: cannot be read"]),
-    "batch: no recordings": Command(BATCH, ["d: no CSV file"], {"d/x.txt": b"a"}),
+    "batch: no recordings": Command(BATCH, ["d: a folder without recordings", ".xlsx"], {"d/x.png": b"a"}),
     "batch: neither model nor base": Command(
         ["batch", "d", "--out", "new"], ["neither a model nor a base"], IN_BATCH
     ),

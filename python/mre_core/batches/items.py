@@ -7,6 +7,8 @@ from pathlib import Path
 
 from ..errors import InputError
 from ..files.limits import is_text
+from ..files.readers import READERS
+from .journal import JOURNAL
 
 
 @dataclass(frozen=True)
@@ -25,12 +27,12 @@ class Item:
 
 
 def find_items(folder: str | os.PathLike[str], leave_out: Path | None = None) -> list[Item]:
-    """List the CSV files of a folder and its sub-folders with CSV files, by name.
+    """List the files of a folder that `load` knows by their ending, and its sub-folders with such, by name.
 
     Parameters
     ----------
     folder : path
-        Where to look. What begins with a dot is passed over.
+        Where to look. What begins with a dot is passed over, and so are the results of other batches.
     leave_out : Path, optional
         A sub-folder that is no campaign: that of the results.
 
@@ -42,7 +44,7 @@ def find_items(folder: str | os.PathLike[str], leave_out: Path | None = None) ->
     Raises
     ------
     InputError
-        The folder cannot be read or has no CSV file.
+        The folder cannot be read or has no such file.
     """
     root = Path(folder)
     try:
@@ -55,11 +57,13 @@ def find_items(folder: str | os.PathLike[str], leave_out: Path | None = None) ->
         if leave_out is not None and entry.resolve() == leave_out.resolve():
             continue
         if entry.is_dir():
-            items.append(_item(entry.name, tuple(sorted(f for f in entry.rglob("*") if _is_csv(f)))))
-        elif _is_csv(entry):
+            if not (entry / JOURNAL).exists():
+                items.append(_item(entry.name, tuple(sorted(f for f in entry.rglob("*") if _is_known(f)))))
+        elif _is_known(entry):
             items.append(_item(entry.name, (entry,)))
     if not any(item.files for item in items):
-        raise InputError("no CSV file", file=str(root), wanted="recordings, or sub-folders with recordings")
+        wanted = f"files that end in {', '.join(READERS)}, or sub-folders with such"
+        raise InputError("a folder without recordings", file=str(root), wanted=wanted)
     return _without_duplicates(items)
 
 
@@ -74,8 +78,8 @@ def digest_of_all(digests: list[str]) -> str:
     return hashlib.sha256("".join(digests).encode()).hexdigest()
 
 
-def _is_csv(path: Path) -> bool:
-    return path.suffix.lower() == ".csv" and not path.name.startswith(".")
+def _is_known(path: Path) -> bool:
+    return path.suffix.lower() in READERS and not path.name.startswith(".")
 
 
 def _item(name: str, files: tuple[Path, ...]) -> Item:
@@ -83,7 +87,7 @@ def _item(name: str, files: tuple[Path, ...]) -> Item:
         shown = name.encode("utf-8", "backslashreplace").decode()
         return Item(shown, (), "", 0.0, "its name is no text in UTF-8")
     if not files:
-        return Item(name, (), "", 0.0, "no CSV file in the folder")
+        return Item(name, (), "", 0.0, "no recording in the folder")
     digests: dict[str, str] = {}
     modified, problem = 0.0, ""
     for file in files:

@@ -46,10 +46,10 @@ def batch(
 ) -> "pd.DataFrame":
     """Identify or diagnose every recording and every campaign of a folder, each on its own.
 
-    A CSV file is a recording, a sub-folder a campaign. One item that fails does not stop the others.
-    Finished items are kept in `out` at once: a batch that was killed goes on where it was when it is called
-    again, and ends with the same results. Items that failed for want of time, memory or disk are then
-    tried again.
+    A file of any format that `load` reads is a recording, or a campaign where it holds several; a sub-folder
+    with such files is a campaign. One item that fails does not stop the others. Finished items are kept in
+    `out` at once: a batch that was killed goes on where it was when it is called again, and ends with the
+    same results. Items that failed for want of time, memory or disk are then tried again.
 
     Parameters
     ----------

@@ -3,7 +3,8 @@
 import hashlib
 import json
 import os
-from collections.abc import Mapping
+import warnings
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from inspect import signature
@@ -14,10 +15,11 @@ import numpy as np
 
 from .._core import Recording, models, parameters
 from ..diagnose import check_false_alarm
-from ..errors import InputError, shown
+from ..errors import InputError, SkippedWarning, shown
+from ..files.table import NoTableError
 from ..fits import hybrid
 from ..identify import OPTIMIZERS, SWARMS, identify
-from ..load import load
+from ..load import load_all
 from ..minimise import RunOptions
 from ..model import SIMULATED, Model
 from ..stored import number
@@ -28,7 +30,7 @@ _VARYING = {"callback", "on_interrupt", "threads", "time_limit", "x0", "seed", "
 
 @dataclass(frozen=True)
 class Reading:
-    """How a file becomes a recording: keywords of `load`, then what is cut and excluded."""
+    """How files become recordings: keywords of `load_all`, then what is cut and excluded."""
 
     map: Mapping[str, str] = field(default_factory=dict)
     conditions: Mapping[str, float | str] = field(default_factory=dict)
@@ -38,13 +40,26 @@ class Reading:
     exclude: tuple[str, ...] = ()
     read: Mapping[str, object] = field(default_factory=dict)
 
-    def load(self, path: Path) -> Recording:
-        """Read one file."""
+    def load(self, files: Sequence[Path]) -> list[Recording]:
+        """Read all recordings of an item; of several files those that hold no table are passed over."""
+        found: list[Recording] = []
+        for file in files:
+            try:
+                found += self._of_file(file)
+            except NoTableError as error:
+                if file == files[-1] and not found:
+                    raise
+                warnings.warn(f"passed over: {error}", SkippedWarning, stacklevel=2)
+        return found
+
+    def _of_file(self, file: Path) -> list[Recording]:
         conditions: dict[str, Any] = dict(self.conditions)
-        found = load(path, map=self.map, name_pattern=self.name_pattern, read=self.read or None, **conditions)
+        found = load_all(
+            file, map=self.map, name_pattern=self.name_pattern, read=self.read or None, **conditions
+        )
         if self.cut is not None:
-            found = found.cut(*self.cut)
-        return found.exclude(*self.exclude) if self.exclude else found
+            found = [recording.cut(*self.cut) for recording in found]
+        return [recording.exclude(*self.exclude) for recording in found] if self.exclude else found
 
 
 @dataclass(frozen=True)

@@ -102,7 +102,7 @@ def _without_folders(text: str, files: list[Path], task: Task) -> str:
 
 def _loaded(files: list[Path], task: Task) -> list[Recording]:
     """Load the files, and see that they are what the batch began with."""
-    recordings = [task.settings.reading.load(file) for file in files]
+    recordings = task.settings.reading.load(files)
     if digest_of_all([digest_of(file) for file in files]) != task.digest:
         raise InputError(
             "changed since the batch began", file=task.item, wanted="files that stay as they are"

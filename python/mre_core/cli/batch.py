@@ -64,10 +64,11 @@ def batch(
     reading: tuple[str, ...],
     **options: Any,
 ) -> int:
-    """Identify or diagnose every recording (CSV file) and every campaign (sub-folder) of DIR.
+    """Identify or diagnose every recording (file) and every campaign (sub-folder) of DIR.
 
-    An item that fails is listed with its error and stops no other. Killed at any moment, the same command
-    goes on where it was. Exit status 1 where no item at all is done.
+    Files are read as by the other commands: text, Excel, MATLAB, LabVIEW, Parquet, HDF5. One that holds
+    several recordings is a campaign. An item that fails is listed with its error and stops no other. Killed
+    at any moment, the same command goes on where it was. Exit status 1 where no item at all is done.
 
     \b
     Examples:

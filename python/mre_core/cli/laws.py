@@ -1,6 +1,7 @@
 """``mre-core laws``."""
 
-from collections.abc import Iterator
+import warnings
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -77,6 +78,8 @@ def laws(
     """  # noqa: D301  # \b keeps the lines
     from contextlib import nullcontext
 
+    from pandas import DataFrame
+
     from ..current_laws.fit import fit_laws
     from ..current_laws.plots import plot_laws
     from ..measure import measure_fit
@@ -86,34 +89,48 @@ def laws(
 
     interval = None if cut is None else read_interval(cut)
     parts = read_parts(exclude)
-    left_out: list[Recording] = []
 
-    def read() -> "Iterator[Recording]":
+    def read(*, again: bool) -> "Iterator[Recording]":
         for path in recordings:  # one at a time: a campaign need not fit into memory
-            for found in load_all([path], mapping, conditions, name_pattern, reading):
+            with warnings.catch_warnings():
+                if again:  # what there is to say has been said
+                    warnings.simplefilter("ignore")
+                loaded = load_all([path], mapping, conditions, name_pattern, reading)
+            for found in loaded:
                 found = found if interval is None else found.cut(*interval)
-                found = found.exclude(*parts) if parts else found
-                if _is_at(found, over, predict):
-                    left_out.append(found)
-                else:
-                    yield found
+                yield found.exclude(*parts) if parts else found
 
     place = staged(out) if out is not None else nullcontext()
     with place as stage:
         with spinner("fitting", quiet=quiet):
             settings: dict[str, Any] = {"over": over, "bounds": read_bounds(bounds), **options}
-            found = fit_laws(read(), model, _laws(laws), shared, **settings)
-        if predict is not None and not left_out:
+            kept = _Again(lambda again: (r for r in read(again=again) if not _is_at(r, over, predict)))
+            found = fit_laws(kept, model, _laws(laws), shared, **settings)
+            left_out = [] if predict is None else (r for r in read(again=True) if _is_at(r, over, predict))
+            predicted = [measure_fit(found.model, recording) for recording in left_out]
+        if predict is not None and not predicted:
             raise InputError(f"no recording at {predict:g}", wanted=f"the {over} of some recording")
-        predicted = [measure_fit(found.model, recording) for recording in left_out]
         if isinstance(stage, Stage) and out is not None:
             write_settings(stage, out)
             stage.write_json("model.json", found.model.to_dict())
             stage.write_json("laws.json", _content(found, predicted))
+            DataFrame(found.rows()).to_csv(stage.path("laws.csv"), index=False, lineterminator="\n")
             plot_laws(found.model).savefig(stage.path("laws.png"), dpi=110)
     if not quiet:
         _print(found, predicted)
     return 0
+
+
+class _Again:
+    """Recordings that are read anew whenever they are gone through."""
+
+    def __init__(self, read: "Callable[[bool], Iterator[Recording]]") -> None:
+        self._read = read
+        self._again = False
+
+    def __iter__(self) -> "Iterator[Recording]":
+        again, self._again = self._again, True
+        return self._read(again)
 
 
 def _is_at(recording: "Recording", over: str, level: float | None) -> bool:
@@ -152,13 +169,12 @@ def _print(found: "LawFit", predicted: "list[Fit]") -> None:
     over, unit = found.model.over, UNITS[found.model.over]
     out = console()
     table = Table(title=f"{found.model.name}, laws over the {over}", title_justify="left")
-    for column in ("parameter", "law", "values", f"at / {unit}", "unit"):
-        table.add_column(column)
-    for name, p in found.model.laws.items():
-        values = ", ".join(f"{value:.5g}" for value in p.values)
-        nodes = ", ".join(f"{node:g}" for node in p.law.nodes) if len(p.values) > 1 else "all"
-        kind = p.law.kind if p.law.saturation is None else f"saturating, s = {p.law.saturation:.3g} {unit}"
-        table.add_row(name, kind, values, nodes, found.model.units[name])
+    for column in ("parameter", "law", f"at / {unit}", "value", "unit", "95 % interval"):
+        table.add_column(column, justify="right" if column == "value" else "left")
+    for row in found.rows():
+        at = "all" if row["at"] is None else f"{row['at']:g}"
+        interval = "" if row["low"] is None else f"{row['low']:.5g} to {row['high']:.5g}"
+        table.add_row(row["parameter"], row["law"], at, f"{row['value']:.5g}", row["unit"], interval)
     out.print(table)
     table = Table(title="rms error / % of the force's rms", title_justify="left")
     for column in (f"{over} / {unit}", "fitted", "predicted from the others"):

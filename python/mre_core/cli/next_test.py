@@ -37,7 +37,8 @@ def next_test(folder: Path, out: Path, quiet: bool, **limits: float | None) -> N
 
     from ..errors import one_line
     from ..next_test import command, read_proposal
-    from ..output import write_file
+    from ..output import staged_beside
+    from .settings import name_beside, write_settings
 
     proposal = read_proposal(folder)
     signal = command(proposal, **limits)
@@ -45,7 +46,9 @@ def next_test(folder: Path, out: Path, quiet: bool, **limits: float | None) -> N
     if signal.current is not None:
         columns["current_A"] = signal.current
     frame = pd.DataFrame(columns).round(9)
-    write_file(out, lambda path: frame.to_csv(path, index=False, lineterminator="\n"))
+    with staged_beside(out) as stage:
+        frame.to_csv(stage.path(out.name), index=False, lineterminator="\n")
+        write_settings(stage, out.parent, name_beside(out))
     if not quiet:
         far = np.abs(signal.displacement).max()
         click.echo(

@@ -47,7 +47,7 @@ def read_config(context: click.Context, _: click.Parameter, value: Path | None) 
     return value
 
 
-def write_settings(stage: "Stage", folder: Path, **resolved: object) -> None:
+def write_settings(stage: "Stage", folder: Path, name: str = NAME, **resolved: object) -> None:
     """Write the settings of the running command.
 
     Parameters
@@ -56,32 +56,38 @@ def write_settings(stage: "Stage", folder: Path, **resolved: object) -> None:
         Where the results are written.
     folder : Path
         The folder they go to, from which the recordings are named.
+    name : str
+        Of the file; see `name_beside` for a command whose result is a file.
     **resolved : object
-        Values that were drawn, such as the seed.
+        Values that were drawn, such as the seed; None for one that is to be left out.
     """
     import tomlkit
 
     from .. import __version__
 
     context = click.get_current_context()
-    command = str(context.command.name)
+    words = context.command_path.partition(" ")[2]
     used = {
-        key: context.params[str(parameter.name)]
-        for key, parameter in keys_of(context.command).items()
-        if context.params.get(str(parameter.name)) not in (None, (), False)
-    }
-    used |= {key: value for key, value in resolved.items() if value is not None}
+        key: context.params.get(str(parameter.name)) for key, parameter in keys_of(context.command).items()
+    } | resolved
     document = tomlkit.document()
     document.add(
-        tomlkit.comment(f"What mre-core {__version__} used. To repeat: mre-core {command} --config {NAME}")
+        tomlkit.comment(f"What mre-core {__version__} used. To repeat: mre-core {words} --config {name}")
     )
     document.add(tomlkit.comment("Paths count from the folder of this file."))
     own = tomlkit.table()
     for key, value in sorted(used.items(), key=lambda item: item[0] in PAIRS):
+        if value is None or value is False or value == ():
+            continue
         place = document if key in _SHARED else own
         place[key] = _written(key, value, folder)
     document[table_of(context.command)] = own
-    stage.path(NAME).write_text(tomlkit.dumps(document), encoding="utf-8")
+    stage.path(name).write_text(tomlkit.dumps(document), encoding="utf-8")
+
+
+def name_beside(result: Path) -> str:
+    """Name the settings of a command whose result is one file, such as ``predicted.settings.toml``."""
+    return f"{result.stem}.{NAME}"
 
 
 def _underscored(content: Mapping[str, Any]) -> dict[str, Any]:
@@ -102,7 +108,7 @@ def _value(key: str, setting: Any, folder: Path) -> Any:
 
 def _is_path(key: str, setting: object) -> bool:
     """Tell a file from anything else; a model may be a name."""
-    return key in ("out", "recording", "folder") or (
+    return key in ("out", "recording", "folder", "answers", "tables") or (
         key in ("model", "base") and str(setting).endswith(".json")
     )
 

@@ -1,6 +1,6 @@
 """What may stand in a settings file: made from the options of the commands, checked by pydantic."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
@@ -24,7 +24,7 @@ def key_of(parameter: click.Parameter) -> str:
 
 def table_of(command: click.Command) -> str:
     """Name of the table of a command, such as ``next_test``."""
-    return str(command.name).replace("-", "_")
+    return next(name for name, known in commands().items() if known is command)
 
 
 def keys_of(command: click.Command) -> dict[str, click.Parameter]:
@@ -55,7 +55,7 @@ def settings_model() -> type["BaseModel"]:
             for key, parameter in keys_of(command).items()
         }
         tops = fields | tops
-        title = f"Options of mre-core {command.name}"
+        title = f"Options in the table {name}"
         table = create_model(f"{name}_settings", __config__=ConfigDict(**strict, title=title), **fields)
         about = command.get_short_help_str(100)
         tables[f"{name}_table"] = (table | None, Field(None, alias=name, description=about))
@@ -104,10 +104,18 @@ def problem_in(content: Mapping[str, Any]) -> tuple[str, str] | None:
 
 
 def commands() -> dict[str, click.Command]:
-    """Commands that have settings, by the name of their table."""
+    """Commands that have settings, by the name of their table; ``trial_make`` is one of a group."""
     from .main import cli
 
-    return {table_of(command): command for command in cli.commands.values() if keys_of(command)}
+    return {"_".join(words).replace("-", "_"): command for words, command in _below(cli) if keys_of(command)}
+
+
+def _below(group: click.Group) -> Iterator[tuple[tuple[str, ...], click.Command]]:
+    for name, command in group.commands.items():
+        if isinstance(command, click.Group):
+            yield from (((name, *words), one) for words, one in _below(command))
+        else:
+            yield (name,), command
 
 
 def _known(place: Sequence[str]) -> list[str]:

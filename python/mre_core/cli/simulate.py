@@ -24,7 +24,7 @@ def simulate(
     """Predict the force of MODEL (a model.json) over the motion in RECORDING (a file).
 
     The file gets the columns time_s and force_N, one row for each row of the recording, whose own
-    force is not read.
+    force is not read. Beside it the settings are written, from which --config repeats the command.
 
     \b
     Example:
@@ -32,15 +32,15 @@ def simulate(
     """  # noqa: D301  # \b keeps the lines
     from ..model import Model
     from ..model import simulate as run
-    from ..output import write_file
+    from ..output import staged_beside
+    from .settings import name_beside, write_settings
 
     motion = load_motion(recording, mapping, conditions, name_pattern, reading)
     force = run(Model.load(model), motion)
 
-    def write(path: Path) -> None:
-        rows = (f"{t!r},{f!r}\n" for t, f in zip(motion.time.tolist(), force.tolist(), strict=True))
-        with path.open("w", encoding="utf-8", newline="") as file:
+    rows = (f"{t!r},{f!r}\n" for t, f in zip(motion.time.tolist(), force.tolist(), strict=True))
+    with staged_beside(out) as stage:
+        with stage.path(out.name).open("w", encoding="utf-8", newline="") as file:
             file.write("time_s,force_N\n")
             file.writelines(rows)
-
-    write_file(out, write)
+        write_settings(stage, out.parent, name_beside(out))

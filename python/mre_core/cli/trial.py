@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from .arguments import WHOLE
+from .arguments import WHOLE, config_option
 
 if TYPE_CHECKING:
     from ..trial import Opening
@@ -23,7 +23,7 @@ def trial() -> None:
     """  # noqa: D301  # \b keeps the lines
 
 
-_folder = click.argument("directory", metavar="DIR", type=click.Path(path_type=Path))
+_folder = click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
 _workers = click.option("--workers", type=WHOLE, help="Processes; one for each core by default.")
 _quiet = click.option("--quiet", is_flag=True, help="No progress.")
 
@@ -34,19 +34,25 @@ _quiet = click.option("--quiet", is_flag=True, help="No progress.")
 @click.option("--seed", type=WHOLE, help="Same seed, same trial; drawn and sealed where not given.")
 @_workers
 @_quiet
-def make(directory: Path, cases: int, seed: int | None, workers: int | None, quiet: bool) -> None:
+@config_option
+def make(folder: Path, cases: int, seed: int | None, workers: int | None, quiet: bool) -> None:
     """Write recordings with concealed effects into DIR, and their answers under a seal.
 
     Seeds below 1000 are for development, those from 1000 on for judging. Print the seal, the SHA-256 of the
-    answers: whoever keeps it can tell that they were not changed.
+    answers: whoever keeps it can tell that they were not changed. The seed stands in the answers alone, not
+    in make.settings.toml.
     """
+    from ..output import staged
     from ..trial import make_trial
     from .progress import counted
+    from .settings import write_settings
 
     with counted("simulating", quiet=quiet) as advance:
         seal = make_trial(
-            directory, cases, seed=seed, workers=workers, on_done=lambda done: advance(done, cases)
+            folder, cases, seed=seed, workers=workers, on_done=lambda done: advance(done, cases)
         )
+    with staged(folder) as stage:
+        write_settings(stage, folder, "make.settings.toml", seed=None)
     click.echo(f"seal {seal}")
 
 
@@ -55,13 +61,18 @@ def make(directory: Path, cases: int, seed: int | None, workers: int | None, qui
 @click.option("--resume", is_flag=True, help="Go on with a run that was stopped.")
 @_workers
 @_quiet
-def run(directory: Path, resume: bool, workers: int | None, quiet: bool) -> None:
+@config_option
+def run(folder: Path, resume: bool, workers: int | None, quiet: bool) -> None:
     """Diagnose the recordings in DIR. The answers are not read and need not be there."""
+    from ..output import staged
     from ..trial import run_trial
     from .progress import counted
+    from .settings import write_settings
 
     with counted("diagnosing", quiet=quiet) as advance:
-        done = run_trial(directory, resume=resume, workers=workers, on_done=advance)
+        done = run_trial(folder, resume=resume, workers=workers, on_done=advance)
+    with staged(folder) as stage:
+        write_settings(stage, folder, "run.settings.toml")
     click.echo(f"{done} cases diagnosed")
 
 
@@ -73,21 +84,20 @@ def run(directory: Path, resume: bool, workers: int | None, quiet: bool) -> None
 @click.option("--seal", metavar="SHA256", help="The seal that was printed when the trial was made.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON instead of tables.")
 @click.option("--tables", type=click.Path(path_type=Path), metavar="FOLDER", help="Write Markdown tables.")
-def open_(
-    directory: Path, answers: Path | None, seal: str | None, as_json: bool, tables: Path | None
-) -> None:
+@config_option
+def open_(folder: Path, answers: Path | None, seal: str | None, as_json: bool, tables: Path | None) -> None:
     """Check the seal of DIR, compare the diagnoses with the answers, and print what came out."""
     from ..output import staged
     from ..trial import open_trial
 
-    found = open_trial(directory, answers=answers, seal=seal)
+    found = open_trial(folder, answers=answers, seal=seal)
     if tables is not None:
         with staged(tables) as stage:
             stage.path("seal.md").write_text(f"{found}\n", encoding="utf-8")
             for sheet in found.sheets:
                 stage.path(f"{sheet.name}.md").write_text(sheet.markdown(), encoding="utf-8")
     if as_json:
-        click.echo((directory / "results.json").read_text(encoding="utf-8"), nl=False)
+        click.echo((folder / "results.json").read_text(encoding="utf-8"), nl=False)
     else:
         _print(found)
 

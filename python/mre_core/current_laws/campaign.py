@@ -156,7 +156,7 @@ def read_campaign(
         if force is None:
             raise InputError(f"recording '{recording.name}' has no force", wanted="a force to fit")
         first, last = recording.scored
-        weight = 1.0 / max(float(np.mean(force[first:last] ** 2)), 1e-300) if by_force else 1.0
+        weight = weight_of(force[first:last], by_force=by_force)
         farthest = max(farthest, float(np.abs(recording.displacement).max()))
         fastest = max(fastest, float(np.abs(recording.velocity).max()))
         strongest = max(strongest, float(np.abs(force).max()))
@@ -192,6 +192,11 @@ def read_campaign(
         samples,
         weights,
     )
+
+
+def weight_of(force: Array, *, by_force: bool) -> float:
+    """Weight of a sample of a recording: one, or as much as makes the mean squared force one."""
+    return 1.0 / max(float(np.mean(force**2)), 1e-300) if by_force else 1.0
 
 
 def _steady_current(recording: Recording, over: str) -> float | None:

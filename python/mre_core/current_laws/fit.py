@@ -1,7 +1,7 @@
 """From a campaign to a model whose parameters follow the current."""
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, field
 from typing import Any, Literal
 
 import numpy as np
@@ -11,9 +11,11 @@ from ..errors import InputError
 from ..model import Level, Model
 from .campaign import Campaign, read_campaign
 from .choose import Trial, choose, laws_of, leave_one_current_out, misfit
+from .intervals import Spread, read_spread
 from .joint import Joint, fit
 from .law import FEWEST, LAWS
 from .structure import Structure
+from .tangents import values_of
 from .variable import Over, check_over
 
 
@@ -33,6 +35,22 @@ class LawFit:
     trials: tuple[Trial, ...]
     """What was tried to choose the laws, in that order; empty where all were given."""
     samples: int
+    spread: Spread | None = field(default=None, compare=False, repr=False)
+    """Intervals of the laws' values; None where the recordings could be read only once."""
+
+    def rows(self) -> list[dict[str, Any]]:
+        """Values of the laws: parameter, law, at, value, low, high, unit.
+
+        ``at`` is what has the value, None where all have it; the saturation of a law has a row of its own.
+        ``low`` and ``high`` are the ends of the 95 % interval, None where the recordings do not determine
+        the value or a bound holds it.
+        """
+        values = values_of(self.model.laws, self.model.units, self.model.over)
+        intervals = [None] * len(values) if self.spread is None else self.spread.intervals
+        return [
+            asdict(value) | dict(zip(("low", "high"), interval or (None, None), strict=True))
+            for value, interval in zip(values, intervals, strict=True)
+        ]
 
     def to_dict(self) -> dict[str, Any]:
         """Content of ``laws.json``."""
@@ -40,6 +58,7 @@ class LawFit:
             "schema": "mre-core/laws/1",
             "model": self.model.name,
             "laws": {name: law.to_dict() for name, law in self.model.laws.items()},
+            "values": self.rows(),
             "rms_N": self.rms,
             "relative_rms": self.relative_rms,
             "over": self.model.over,
@@ -66,8 +85,9 @@ def fit_laws(
     ----------
     recordings : Recording or iterable of them
         With force and current, which may change within a recording. For `sinh` and `kelvin_voigt` they are
-        read once, one after the other, and only a factor of 27 columns is kept for every current: a
-        generator that loads them needs the memory of one.
+        read one after the other, and only a factor of 27 columns is kept for every current: what loads them
+        as it goes needs the memory of one. They are read a second time for the intervals, which an iterator
+        (a generator), that can be read only once, does not get.
     model : {"kelvin_voigt", "sinh", "bouc_wen"}
         What to fit.
     laws : mapping, optional
@@ -112,7 +132,10 @@ def fit_laws(
             kinds, trials, start = choose(campaign, given)
         joint = fit(campaign, laws_of(kinds, campaign.levels), start)
         left_out = leave_one_current_out(campaign, kinds, joint)
-        return _result(campaign, joint, over, left_out, trials)
+        spread = None
+        if not isinstance(recordings, Iterator):
+            spread = read_spread(recordings, campaign, joint, over, by_force=weights == "force")
+        return _result(campaign, joint, over, left_out, trials, spread)
 
 
 def _given(structure: Structure, laws: Mapping[str, str], shared: Sequence[str]) -> dict[str, str]:
@@ -129,13 +152,24 @@ def _given(structure: Structure, laws: Mapping[str, str], shared: Sequence[str])
 
 
 def _result(
-    campaign: Campaign, joint: Joint, over: str, left_out: Trial | None, trials: Sequence[Trial]
+    campaign: Campaign,
+    joint: Joint,
+    over: str,
+    left_out: Trial | None,
+    trials: Sequence[Trial],
+    spread: Spread | None,
 ) -> LawFit:
     tested = campaign.levels
-    if over == "current":
-        levels = tuple(Level(current, joint.at(current)) for current in tested)
-    else:  # a level is one of the current
-        levels = (Level(campaign.current, joint.at(0.5 * (tested[0] + tested[-1]))),)
+    # A level is one of the current; laws over something else are shown at the middle of it.
+    places = tested if over == "current" else (0.5 * (tested[0] + tested[-1]),)
+    levels = tuple(
+        Level(
+            place if over == "current" else campaign.current,
+            joint.at(place),
+            {} if spread is None else spread.at(joint, place),
+        )
+        for place in places
+    )
     ends = {} if over == "current" else {f"{over}_from": tested[0], f"{over}_to": tested[-1]}
     squares, force = misfit(campaign, joint)
     by_level = {}
@@ -155,6 +189,7 @@ def _result(
         left_out,
         tuple(trials),
         campaign.samples,
+        spread,
     )
 
 

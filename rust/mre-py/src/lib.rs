@@ -40,7 +40,7 @@ mod _core {
     #[pymodule_export]
     use crate::swarm::{Swarm, inertia_weight, uniforms};
     #[pymodule_export]
-    use crate::uncertainty::{fit_bootstrap, fit_profile, fit_uncertainty};
+    use crate::uncertainty::{fit_bootstrap, fit_profile, fit_uncertainty, noise_products};
 
     use super::{Bound, PyModule, PyModuleMethods, PyResult};
 

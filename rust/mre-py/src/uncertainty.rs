@@ -3,7 +3,7 @@
 use mre::uncertainty::{self, Estimate};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyList};
 
 use crate::array::{matrix, vector};
 use crate::error::{setting, to_python};
@@ -45,6 +45,20 @@ pub(crate) fn fit_uncertainty<'py>(
     dict.set_item("frequency", found.cycle.frequency)?;
     dict.set_item("words", found.words)?;
     Ok(dict)
+}
+
+/// What one recording adds to the covariance of a joint fit: `J' V J`, and the independent samples in it.
+#[pyfunction]
+pub(crate) fn noise_products<'py>(
+    py: Python<'py>,
+    tangents: &Bound<'py, PyList>,
+    residual: &Bound<'py, PyAny>,
+    rate: f64,
+) -> PyResult<(Bound<'py, PyArray2<f64>>, f64)> {
+    let residual = vector("residual", residual)?;
+    let columns = tangents.iter().map(|c| vector("tangents", &c)).collect::<PyResult<Vec<_>>>()?;
+    let found = uncertainty::products(&columns, &residual, rate).map_err(to_python)?;
+    Ok((matrix(py, &found.noisy, columns.len().max(1))?, found.independent))
 }
 
 /// Profile-likelihood intervals.

@@ -11,6 +11,7 @@ mod estimates;
 mod levinson;
 mod local;
 mod noise;
+mod products;
 mod profile;
 mod student;
 mod tangent;
@@ -24,6 +25,7 @@ use local::Local;
 
 pub use bootstrap::{Bootstrap, bootstrap};
 pub use derived::Cycle;
+pub use products::{Products, products};
 pub use profile::{Profile, profile};
 
 /// A quantity with its uncertainty.
