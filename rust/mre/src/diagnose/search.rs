@@ -254,10 +254,14 @@ impl<'a> Search<'_, 'a> {
         let mut place = self.given();
         while self.found(&here) > 1 && place < here.assembly.effects().len() {
             let now = Candidate { assembly: here.assembly.clone(), fitted: here.fitted.clone() };
-            let Some(without) = self.monitor.stage(Stage::Needless, || self.drop(&here, place)) else {
-                break;
-            };
-            if without.criterion() < now.criterion() {
+            let tried = self.monitor.stage(Stage::Needless, || {
+                let without = self.drop(&here, place);
+                let needless =
+                    without.criterion() < now.criterion() || self.idle(&now, &without, &here.noise);
+                (without, needless)
+            });
+            let Some((without, needless)) = tried else { break };
+            if needless {
                 let Some(mut narrower) = self.look(without.assembly, &without.fitted.unit, &here.noise)
                 else {
                     break;
@@ -271,6 +275,14 @@ impl<'a> Search<'_, 'a> {
             }
         }
         here
+    }
+
+    /// True where the base plainly misses, and a model does no better on held-out data than one without an
+    /// effect: its criterion only counts what is left.
+    fn idle(&self, with: &Candidate<'a>, without: &Candidate<'a>, noise: &Noise) -> bool {
+        let held_out =
+            |c: &Candidate<'a>| prove(&c.assembly, noise, self.splits, &c.fitted, self.monitor).held_out_rms;
+        self.begun.noise.hidden() && held_out(without) <= held_out(with)
     }
 }
 
