@@ -155,8 +155,11 @@ fn what_cannot_be_is_said() {
         Ok(_) => String::new(),
         Err(error) => error.to_string(),
     };
-    assert_eq!(text(0.0, 1.0), "largest_displacement is 0: a positive number of mm");
-    assert_eq!(text(f64::NAN, 1.0), "largest_displacement is NaN: a positive number of mm");
+    assert_eq!(text(0.0, 1.0), "largest_displacement is 0.0: a positive number of mm, from 1e-30 to 1e30");
+    assert_eq!(
+        text(f64::NAN, 1.0),
+        "largest_displacement is NaN: a positive number of mm, from 1e-30 to 1e30"
+    );
     assert_eq!(text(4.0, 0.01), "bound of beta is 0.1:0.01: the lower bound has to be below the upper one");
     assert_eq!(
         text(4.0, 8.0),
