@@ -66,7 +66,8 @@ def read_results(path: str | os.PathLike[str]) -> "pd.DataFrame":
 
     file = Path(path) / RESULTS if Path(path).is_dir() else Path(path)
     try:
-        found = pd.read_parquet(file)
+        with file.open("rb") as opened:
+            found = pd.read_parquet(opened)
     except OSError as error:
         problem = error.strerror or "is no Parquet file"
         raise InputError(
