@@ -48,6 +48,27 @@ impl Base {
         Ok(Self::Fitted(groups.collect::<Result<_>>()?))
     }
 
+    /// The same base on other recordings; `members` are the places of those that share parameters, group by
+    /// group, where it is fitted.
+    ///
+    /// # Errors
+    /// As [`Problem::new`].
+    pub(crate) fn again(&self, recordings: &[Arc<Recording>], members: &[Vec<usize>]) -> Result<Self> {
+        match self {
+            Self::Fitted(groups) => {
+                let model = groups.first().map_or("", |g| g.problem.model().name());
+                Self::fitted(recordings, model, members)
+            }
+            Self::Held(kept) => Ok(Self::Held(kept.again()?)),
+            Self::Given(force) => Ok(Self::Given(force.clone())),
+        }
+    }
+
+    /// Places of the recordings that share parameters, group by group.
+    pub(crate) fn members(&self) -> Vec<Vec<usize>> {
+        self.groups().iter().map(|g| g.members.clone()).collect()
+    }
+
     /// The groups of a fitted base.
     pub fn groups(&self) -> &[Group] {
         match self {

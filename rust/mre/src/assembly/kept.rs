@@ -48,10 +48,6 @@ impl Kept {
 
     /// Force in N of the device without its effects.
     pub(super) fn alone(&self, recording: &Recording) -> Vec<f64> {
-        let mut force = vec![0.0; recording.len()];
-        for (_, part) in self.device.parts(recording).unwrap_or_default() {
-            force.iter_mut().zip(part).for_each(|(sum, value)| *sum += value);
-        }
-        force
+        self.device.simulate(recording).unwrap_or_else(|_| vec![0.0; recording.len()])
     }
 }

@@ -123,7 +123,7 @@ fn one(
         return Ok(None);
     }
     let campaign = simulated(found, force, settings.seed, number);
-    let base = again(base, &campaign)?;
+    let base = base.again(campaign.recordings(), &base.members())?;
     let settings = Settings { seed: settings.seed.wrapping_add(1 + number as u64), ..settings.clone() };
     let rows: Vec<Rows> = campaign.recordings().iter().map(|r| vec![r.scored()]).collect();
     let begun = begin(&campaign, &base, given, &rows, monitor);
@@ -158,19 +158,6 @@ fn simulated(found: &Diagnosis, force: &[Vec<f64>], seed: u64, number: usize) ->
     let recordings: Vec<_> = recordings.collect();
     let sizes = Sizes::of(recordings.iter().map(AsRef::as_ref));
     Campaign::with_sizes(recordings, sizes)
-}
-
-/// The same base for another campaign.
-fn again(base: &Base, campaign: &Campaign) -> Result<Base> {
-    Ok(match base {
-        Base::Fitted(groups) => {
-            let members: Vec<Vec<usize>> = groups.iter().map(|g| g.members.clone()).collect();
-            let model = groups.first().map_or("", |g| g.problem.model().name());
-            Base::fitted(campaign.recordings(), model, &members)?
-        }
-        Base::Held(kept) => Base::Held(kept.again()?),
-        Base::Given(force) => Base::Given(force.clone()),
-    })
 }
 
 /// Tells nothing of the stages inside one campaign.

@@ -37,7 +37,7 @@ pub(super) struct Split {
 pub(super) fn splits(campaign: &Campaign, base: &Base, by_blocks: bool) -> Vec<Split> {
     let recordings: Vec<&Recording> = campaign.recordings().iter().map(AsRef::as_ref).collect();
     let groups: Vec<Vec<usize>> = match base {
-        Base::Fitted(groups) => groups.iter().map(|g| g.members.clone()).collect(),
+        Base::Fitted(_) => base.members(),
         Base::Held(_) | Base::Given(_) => vec![(0..recordings.len()).collect()],
     };
     if by_blocks || groups.iter().any(|g| g.len() < FOLDS) {

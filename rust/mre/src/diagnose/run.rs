@@ -3,7 +3,7 @@
 use super::absorbed::absorbed;
 use super::alternatives::rivals;
 use super::begin::{Begun, Given, begin};
-use super::candidates::{by_effect, residuals};
+use super::candidates::by_effect;
 use super::diagnosis::{Diagnosis, Effect, HeldOut, Judgement};
 use super::intervals::estimates;
 use super::judge::{Judged, judge, settle_reference};
@@ -14,7 +14,7 @@ use super::next_test::{Doubt, propose};
 use super::normal::Rows;
 use super::prove::{Proof, Split, prove, splits};
 use super::screen::{Null, Score};
-use super::search::{Named, Search, rms};
+use super::search::{Named, Search};
 use super::settings::Settings;
 use super::unknown::{self, Unknown};
 use super::verdict::Verdict;
@@ -48,10 +48,7 @@ pub fn run<'a>(
     let own = begun.assembly.effects().len();
     let noise = named.noise.clone();
     let data = Data { noise: &noise, rows: &rows, monitor };
-    let noise_rms = rms(&match &named.next {
-        Some(next) => residuals(&next.assembly, data, &next.fitted),
-        None => residuals(&named.assembly, data, &named.fitted),
-    });
+    let noise_rms = named.noise_rms(data);
     let alone = Null::new(&begun.assembly, data, &base_fit.unit);
     let places = monitor
         .stage(Stage::Location, || alone.as_ref().map_or_else(Vec::new, |n| locate(n, settings.false_alarm)));
@@ -155,15 +152,7 @@ fn models<'a>(begun: &Begun<'a>, base: Fitted, named: Named<'a>, data: Data) -> 
         proofs: None,
         base_force: forces(&begun.assembly, data, &base),
         final_force: forces(&named.assembly, data, &named.fitted),
-        base: Named {
-            assembly: begun.assembly.clone(),
-            fitted: base,
-            noise: named.noise.clone(),
-            scores: Vec::new(),
-            next: None,
-            later: Vec::new(),
-            p_values: Vec::new(),
-        },
+        base: Named::bare(begun.assembly.clone(), base, named.noise.clone()),
         named,
         broken_off: data.monitor.broken_off(),
     }

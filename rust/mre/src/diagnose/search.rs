@@ -64,6 +64,22 @@ struct Improvement {
     noise: f64,
 }
 
+impl<'a> Named<'a> {
+    /// A model before anything was scored beside it.
+    pub(super) fn bare(assembly: Assembly<'a>, fitted: Fitted, noise: Noise) -> Self {
+        let (scores, later, p_values) = (Vec::new(), Vec::new(), Vec::new());
+        Self { assembly, fitted, noise, scores, next: None, later, p_values }
+    }
+
+    /// Rms in N of what the best candidate leaves, or the model itself where there is none.
+    pub(super) fn noise_rms(&self, data: Data) -> f64 {
+        rms(&match &self.next {
+            Some(next) => residuals(&next.assembly, data, &next.fitted),
+            None => residuals(&self.assembly, data, &self.fitted),
+        })
+    }
+}
+
 /// What the search works on.
 pub(super) struct Search<'s, 'a> {
     pub(super) begun: &'s Begun<'a>,
@@ -80,7 +96,7 @@ impl<'a> Search<'_, 'a> {
     pub(super) fn run(&self) -> (Named<'a>, Option<Named<'a>>) {
         let Begun { assembly, fitted, noise } = self.begun;
         let Some(mut here) = self.look(assembly.clone(), &fitted.unit, noise) else {
-            return (self.bare(), None);
+            return (Named::bare(assembly.clone(), fitted.clone(), noise.clone()), None);
         };
         let (mut first, mut removed_by_first) = (None, 0.0);
         while self.found(&here) < MOST {
@@ -105,13 +121,6 @@ impl<'a> Search<'_, 'a> {
         let named = self.without_the_needless(here);
         let more = self.found(&named) > 1;
         (named, first.filter(|_| more))
-    }
-
-    /// The base alone, before anything was scored beside it.
-    fn bare(&self) -> Named<'a> {
-        let Begun { assembly, fitted, noise } = self.begun.clone();
-        let (scores, later, p_values) = (Vec::new(), Vec::new(), Vec::new());
-        Named { assembly, fitted, noise, scores, next: None, later, p_values }
     }
 
     /// The best first effect with its best law, and by how much it lowers the held-out rms, N.
@@ -234,16 +243,12 @@ impl<'a> Search<'_, 'a> {
         let proof = |n: &Named<'a>| prove(&n.assembly, &after.noise, self.splits, &n.fitted, self.monitor);
         let data = self.data(&after.noise);
         self.monitor.stage(Stage::Proof, || {
-            let left = match &after.next {
-                Some(next) => residuals(&next.assembly, data, &next.fitted),
-                None => residuals(&after.assembly, data, &after.fitted),
-            };
             let (a, b) = (proof(before), proof(after));
             Improvement {
                 held_out: a.held_out_rms - b.held_out_rms,
                 trained: a.train_rms - b.train_rms,
                 rest: a.held_out_rms,
-                noise: rms(&left),
+                noise: after.noise_rms(data),
             }
         })
     }

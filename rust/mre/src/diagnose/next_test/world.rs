@@ -40,15 +40,14 @@ impl World {
         .ok()?;
         let mut recordings = known.recordings().to_vec();
         recordings.push(Arc::new(probe));
-        let base = match base {
-            Base::Fitted(groups) => {
-                let mut members: Vec<Vec<usize>> = groups.iter().map(|g| g.members.clone()).collect();
-                members.iter_mut().find(|m| m.contains(&0))?.push(recordings.len() - 1);
-                Base::fitted(&recordings, groups.first()?.problem.model().name(), &members).ok()?
-            }
-            Base::Held(kept) => Base::Held(kept.again().ok()?),
-            Base::Given(_) => return None,
-        };
+        if matches!(base, Base::Given(_)) {
+            return None;
+        }
+        let mut members = base.members();
+        if let Some(first) = members.iter_mut().find(|m| m.contains(&0)) {
+            first.push(recordings.len() - 1);
+        }
+        let base = base.again(&recordings, &members).ok()?;
         // Steps of the current where it was constant would ask for another law of the base.
         if signal.current.is_some() && !known.sizes().current_varies {
             return None;
