@@ -67,6 +67,10 @@ pub(crate) fn diagnose_recordings<'py>(
                 // Effects of one model have one set of sizes.
                 campaign = campaign.sized(sizes.clone());
             }
+            if held.is_some() || given.is_some() {
+                let sizes = campaign.sizes().clone().of_one_device();
+                campaign = campaign.sized(sizes);
+            }
             let base = match (held, given) {
                 (Some(device), _) => Base::Held(match sizes {
                     Some(sizes) => Kept::with_effects(device, kept, sizes),

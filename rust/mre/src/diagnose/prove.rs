@@ -10,7 +10,7 @@ use super::noise::Noise;
 use super::normal::Rows;
 use crate::assembly::{Assembly, Base, Campaign};
 use crate::kernel::filter::dot;
-use crate::recording::Recording;
+use crate::recording::{Condition, Recording};
 
 /// Folds of recordings.
 const FOLDS: usize = 3;
@@ -36,11 +36,12 @@ pub(super) struct Split {
 /// or where `by_blocks` asks for it, contiguous blocks of every recording, separated by a guard.
 pub(super) fn splits(campaign: &Campaign, base: &Base, by_blocks: bool) -> Vec<Split> {
     let recordings: Vec<&Recording> = campaign.recordings().iter().map(AsRef::as_ref).collect();
-    let groups: Vec<Vec<usize>> = match base {
-        Base::Fitted(_) => base.members(),
-        Base::Held(_) | Base::Given(_) => vec![(0..recordings.len()).collect()],
+    let (groups, least) = match base {
+        Base::Fitted(_) => (base.members(), FOLDS),
+        // What follows the current is not to be had from other currents.
+        Base::Held(_) | Base::Given(_) => (of_one_current(&recordings), 2),
     };
-    if by_blocks || groups.iter().any(|g| g.len() < FOLDS) {
+    if by_blocks || recordings.len() < FOLDS || groups.iter().any(|g| g.len() < least) {
         return (0..FOLDS).map(|fold| blocks(&recordings, fold)).collect();
     }
     let mut fold_of = vec![None; recordings.len()];
@@ -68,6 +69,22 @@ pub(super) fn splits(campaign: &Campaign, base: &Base, by_blocks: bool) -> Vec<S
             split
         })
         .collect()
+}
+
+/// Places of recordings with the same constant current; one group where it changes within a recording.
+fn of_one_current(recordings: &[&Recording]) -> Vec<Vec<usize>> {
+    let mut groups: Vec<(&Condition, Vec<usize>)> = Vec::new();
+    for (place, recording) in recordings.iter().enumerate() {
+        let current = recording.current();
+        if current.varies() {
+            return vec![(0..recordings.len()).collect()];
+        }
+        match groups.iter_mut().find(|(known, _)| *known == current) {
+            Some((_, members)) => members.push(place),
+            None => groups.push((current, vec![place])),
+        }
+    }
+    groups.into_iter().map(|(_, members)| members).collect()
 }
 
 fn blocks(recordings: &[&Recording], fold: usize) -> Split {

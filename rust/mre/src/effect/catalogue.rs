@@ -28,15 +28,26 @@ use super::rig::Rig;
 use super::stiffness_jump::StiffnessJump;
 use super::stribeck::{Fall, Stribeck};
 use super::thermal::Thermal;
+use super::with_current::WithCurrent;
 
 /// The catalogue: the laws of an effect stand together, its plainest law first.
 pub const CATALOGUE: &[&dyn Effect] = &[
     &Maxwell::One,
     &Maxwell::Two,
+    &WithCurrent {
+        law: &Maxwell::One,
+        name: "one branch, with the current",
+        equation: "dF_m/dt = k_m(I) v - F_m/tau, k_m affine in I",
+    },
     &Fractional::Springpot,
     &Fractional::Maxwell,
     &Coulomb::Dahl,
     &Coulomb::Smoothed,
+    &WithCurrent {
+        law: &Coulomb::Dahl,
+        name: "Dahl, with the current",
+        equation: "F_f = F_c(I) z, dz/dt = v (1 - z sgn v)/z_y, F_c affine in I",
+    },
     &Stribeck { fall: Fall::Gaussian, rests: false },
     &Stribeck { fall: Fall::Gaussian, rests: true },
     &Stribeck { fall: Fall::Exponential, rests: false },
@@ -47,6 +58,16 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &Hysteresis::Jenkins,
     &Hysteresis::Iwan,
     &Hysteresis::PowerIwan,
+    &WithCurrent {
+        law: &Hysteresis::BoucWen,
+        name: "Bouc-Wen, with the current",
+        equation: "F_h = k_w(I) w, dw/dt = rho (v - sigma |v| |w|^(n-1) w + (sigma - 1) v |w|^n), k_w affine in I",
+    },
+    &WithCurrent {
+        law: &Hysteresis::PowerIwan,
+        name: "Iwan, power distribution of yields, with the current",
+        equation: "F_h = k_h(I) mean of p(r) over yields with the share (r/r_max)^q below r, k_h affine in I",
+    },
     &Inertia,
     &TimeDelay,
     &OddElastic::Cubic,
@@ -60,6 +81,11 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &QuadraticDamping::Square,
     &QuadraticDamping::Power,
     &QuadraticDamping::Eyring,
+    &WithCurrent {
+        law: &QuadraticDamping::Eyring,
+        name: "Eyring, with the current",
+        equation: "F_d = F_e(I) asinh(v/v_e), F_e affine in I",
+    },
     &Mullins { by: Softening::PseudoElastic, whole: false },
     &Mullins { by: Softening::PseudoElastic, whole: true },
     &Mullins { by: Softening::Largest, whole: false },
@@ -124,6 +150,8 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &Remanence::Largest,
     &FieldDependence::Square,
     &FieldDependence::Saturating,
+    &FieldDependence::Scaled { whole: false },
+    &FieldDependence::Scaled { whole: true },
 ];
 
 /// The law of this name of an effect.

@@ -2,6 +2,7 @@
 //!
 //! | symbol | meaning | unit | range |
 //! |---|---|---|---|
+//! | s | share that is lost in the middle of the span of the current (negative: gained) | - | -3 to 0.95 |
 //! | `k_i`, `c_i`, `k_i3` | change of stiffness, damping and cubic stiffness | N/mm, N s/mm, N/mm^3 | any |
 //! | `I_s` | current of saturation | A | 10 % to 200 % of the span of the current |
 //!
@@ -10,7 +11,7 @@
 //! Known limit: without at least three levels of the current it cannot be seen.
 
 use super::remanence::following;
-use super::{About, Effect, Scene, Sizes, order_within, signed};
+use super::{About, Effect, Factors, Scene, Sizes, order_within, signed, within};
 use crate::parameter::Parameter;
 
 /// How the parameters leave the affine law.
@@ -20,6 +21,18 @@ pub(super) enum FieldDependence {
     Square,
     /// By saturation.
     Saturating,
+    /// All that stores energy and all hysteresis by one factor, or the whole force.
+    Scaled {
+        /// Damping as well.
+        whole: bool,
+    },
+}
+
+/// What the parameters miss at every sample: a function of the current from 0 at its lowest to 1 at its highest.
+fn departure(scene: &Scene, bent: impl Fn(f64) -> f64) -> Vec<f64> {
+    let (span, low) = (scene.sizes.current_span(), scene.sizes.current.map_or(0.0, |(low, _)| low));
+    let still = vec![low; scene.len()];
+    scene.current.unwrap_or(&still).iter().map(|i| bent((i - low) / span)).collect()
 }
 
 impl Effect for FieldDependence {
@@ -39,6 +52,11 @@ impl Effect for FieldDependence {
                 equation: "F_q = (k_i x + c_i v + k_i3 x^3) q, q = tanh((I - I_low)/I_s) less its chord",
                 ..square
             },
+            Self::Scaled { whole } => About {
+                law: if *whole { "whole force scaled" } else { "stiffness scaled" },
+                equation: "F -> F (1 - s q), q = 4 (I - I_low)(I_high - I)/(I_high - I_low)^2",
+                ..square
+            },
         }
     }
 
@@ -47,7 +65,12 @@ impl Effect for FieldDependence {
     }
 
     fn coefficients(&self) -> Vec<Parameter> {
-        vec![signed("k_i", "N/mm"), signed("c_i", "N s/mm"), signed("k_i3", "N/mm^3")]
+        match self {
+            Self::Square | Self::Saturating => {
+                vec![signed("k_i", "N/mm"), signed("c_i", "N s/mm"), signed("k_i3", "N/mm^3")]
+            }
+            Self::Scaled { .. } => Vec::new(),
+        }
     }
 
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
@@ -57,6 +80,7 @@ impl Effect for FieldDependence {
                 let span = sizes.current_span();
                 vec![order_within("I_s", "A", 0.1 * span, 2.0 * span)]
             }
+            Self::Scaled { .. } => vec![within("s", "", -3.0, 0.95)],
         }
     }
 
@@ -66,22 +90,28 @@ impl Effect for FieldDependence {
             Self::Saturating => {
                 [0.2, 0.5, 1.2].iter().map(|share| vec![share * sizes.current_span()]).collect()
             }
+            Self::Scaled { .. } => vec![vec![-0.2], vec![0.2]],
         }
     }
 
     fn columns(&self, scene: &Scene, shape: &[f64]) -> Vec<Vec<f64>> {
-        let (span, low) = (scene.sizes.current_span(), scene.sizes.current.map_or(0.0, |(low, _)| low));
-        let bent = |i: &f64| {
-            let u = (i - low) / span;
-            match self {
-                Self::Square => u * (u - 1.0),
-                Self::Saturating => (u * span / shape[0]).tanh() - u * (span / shape[0]).tanh(),
+        let span = scene.sizes.current_span();
+        let q = match self {
+            Self::Square => departure(scene, |u| u * (u - 1.0)),
+            Self::Saturating => {
+                let ratio = span / shape[0];
+                departure(scene, |u| (u * ratio).tanh() - u * ratio.tanh())
             }
+            Self::Scaled { .. } => return Vec::new(),
         };
-        let still = vec![low; scene.len()];
-        let q: Vec<f64> = scene.current.unwrap_or(&still).iter().map(bent).collect();
         let mut columns = following(scene, &q);
         columns.push(q.iter().zip(scene.displacement).map(|(q, x)| q * x * x * x).collect());
         columns
+    }
+
+    fn factors(&self, scene: &Scene, shape: &[f64]) -> Option<Factors> {
+        let Self::Scaled { whole } = self else { return None };
+        let q = departure(scene, |u| 4.0 * u * (1.0 - u));
+        Some(Factors::losing(shape[0], &q, *whole))
     }
 }

@@ -41,6 +41,7 @@ mod stribeck;
 #[allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 mod tests;
 mod thermal;
+mod with_current;
 
 pub use catalogue::{CATALOGUE, named};
 pub use initial_state::{InitialState, starts_in_motion};

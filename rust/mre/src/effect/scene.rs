@@ -85,7 +85,8 @@ pub struct Sizes {
     pub energy: f64,
     /// Lowest and highest current, A, where it is known.
     pub current: Option<(f64, f64)>,
-    /// True where the current changes inside a recording.
+    /// True where the current changes inside a recording, or between recordings that share the parameters of
+    /// the base model.
     pub current_varies: bool,
     /// Step of the lattice on which all forces lie, N, if they do.
     pub quantum: Option<f64>,
@@ -133,6 +134,13 @@ impl Sizes {
             sizes.current_varies |= r.current().varies();
         }
         sizes.above_zero()
+    }
+
+    /// The same where all recordings share the parameters of the base model, whatever their currents.
+    #[must_use]
+    pub fn of_one_device(self) -> Self {
+        let differs = self.current.is_some_and(|(low, high)| high > low);
+        Self { current_varies: self.current_varies || differs, ..self }
     }
 
     /// Highest less lowest current, A; 1 where it is not known or constant.

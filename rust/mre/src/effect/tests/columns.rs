@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
-use super::{Stage, close, column, grid, harmonic};
+use super::{Stage, close, column, grid, harmonic, law};
 use crate::kernel::hysteretic;
 
 proptest! {
@@ -138,5 +138,39 @@ fn a_flat_spectrum_relaxes_with_the_logarithm_of_time() {
     let f = column("creep", "logarithmic", &stage.scene(), &[0.1]);
     for i in [100, 200, 300] {
         close(f[i] - f[10 * i], 1.0, 0.03);
+    }
+}
+
+#[test]
+fn a_law_with_the_current_is_the_plain_one_shared_between_two_levels() {
+    let current = |t: f64| 0.5 + 0.25 * t;
+    let time = grid(0.01, 4.0);
+    let series = time.iter().map(|t| current(*t)).collect();
+    let stage = Stage::new(time, |t| (3.0 * (2.0 * t).sin(), 6.0 * (2.0 * t).cos()), Some(series));
+    let scene = stage.scene();
+    let plain = column("coulomb_friction", "Dahl", &scene, &[0.1]);
+    let both = law("coulomb_friction", "Dahl, with the current");
+    let columns = both.columns(&scene, &[0.1]);
+    assert_eq!(columns.len(), both.coefficients().len());
+    for (i, t) in scene.time.iter().enumerate() {
+        close(columns[0][i] + columns[1][i], plain[i], 1e-12);
+        close(columns[1][i], plain[i] * t / 4.0, 1e-12);
+    }
+    let still = Stage::sine(1.0, 1.0, 2.0);
+    assert!(!both.applies(&still.sizes));
+}
+
+#[test]
+fn a_scaled_field_dependence_vanishes_at_the_ends_of_the_current() {
+    let time = grid(0.01, 4.0);
+    let series = time.iter().map(|t| 1.0 + t).collect();
+    let stage = Stage::new(time, |t| (t.sin(), t.cos()), Some(series));
+    let effect = law("field_dependence", "whole force scaled");
+    let factors = effect.factors(&stage.scene(), &[0.3]).expect("it scales");
+    let damping = factors.damping.expect("damping as well");
+    for (i, t) in stage.scene().time.iter().enumerate() {
+        let u = t / 4.0;
+        close(factors.stiffness[i], 1.0 - 0.3 * 4.0 * u * (1.0 - u), 1e-12);
+        close(damping[i], factors.stiffness[i], 1e-12);
     }
 }
