@@ -16,6 +16,9 @@ const SMALLEST_SHARE: f64 = 1e-6;
 const TERMS: [fn(f64, f64) -> f64; 4] =
     [|x, v| x * v, |x, v| x * x * v, |x, v| x.abs() * v, |x, v| x * v * v];
 
+/// A force at a sample of a recording.
+type Force<'f> = &'f dyn Fn(usize, &Scene) -> f64;
+
 /// What smooth forces do beside a fitted model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Unnamed {
@@ -65,11 +68,10 @@ pub(super) fn best(null: &Null, rows: usize) -> Unnamed {
 }
 
 /// Squared standard deviations that one or two columns take off.
-fn gain(null: &Null, columns: &[&dyn Fn(usize, &Scene) -> f64]) -> f64 {
+fn gain(null: &Null, columns: &[Force]) -> f64 {
     let (gram, right, squares) = null.project(columns.len(), |r| {
         let scene = null.scene(r);
-        let of =
-            |column: &&dyn Fn(usize, &Scene) -> f64| (0..scene.len()).map(|i| column(i, &scene)).collect();
+        let of = |column: &Force| (0..scene.len()).map(|i| column(i, &scene)).collect();
         columns.iter().map(of).enumerate().collect()
     });
     if (0..columns.len()).any(|i| gram[(i, i)] <= SMALLEST_SHARE * squares[i]) {

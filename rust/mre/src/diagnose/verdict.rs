@@ -47,8 +47,8 @@ pub struct Evidence {
     pub p_base: f64,
     /// Chance of the final model's.
     pub p_rest: f64,
-    /// True where the final model's mismatch is significant.
-    pub rest: bool,
+    /// Stated chance of a false alarm.
+    pub false_alarm: f64,
     /// Share of the rest in all that can be explained, in squared standard deviations.
     pub share: f64,
     /// Rms in N of the force that the best further candidate would add.
@@ -90,7 +90,7 @@ impl Evidence {
         Self {
             p_base: first.p_value,
             p_rest,
-            rest: significant,
+            false_alarm,
             share,
             lack_of_fit: if significant { change } else { 0.0 },
             plain,
@@ -103,7 +103,7 @@ impl Evidence {
         let several = usize::from(effects > 1);
         let (trusted, form) =
             if self.plain { (TRUSTED[0], PLAIN_FORM) } else { (TRUSTED[several], FORM[several]) };
-        match (effects, self.rest) {
+        match (effects, self.approximate()) {
             (0, false) => Verdict::Adequate,
             (0, true) => Verdict::Unexplained,
             _ if self.surpassed => Verdict::Unexplained,
@@ -113,8 +113,8 @@ impl Evidence {
         }
     }
 
-    /// True where the law of the named effects is not exactly the catalogue's.
+    /// True where a mismatch is left: the law of the named effects is not exactly the catalogue's.
     pub fn approximate(&self) -> bool {
-        self.rest
+        self.p_rest <= self.false_alarm
     }
 }
