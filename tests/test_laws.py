@@ -142,6 +142,41 @@ def test_laws_are_chosen_and_recovered() -> None:
     assert found.rms == pytest.approx(0.2, rel=0.05)
 
 
+@pytest.mark.parametrize("currents", [(0.0, 1.0, 2.0), (0.0, 1.0, 3.0), (0.0, 1.5, 3.0)])
+def test_three_currents_tell_what_changes(currents: tuple[float, ...]) -> None:
+    """The middle of evenly spaced currents says nothing of a linear law: the mean of the ends predicts it."""
+    found = mre_core.fit_laws(campaign(currents), "sinh")
+    kinds = {name: p.law.kind for name, p in found.model.laws.items()}
+    assert {name for name, kind in kinds.items() if kind != "constant"} == {"c0", "k0", "alpha"}
+    assert found.rms == pytest.approx(0.2, rel=0.05)
+    for current in currents:
+        for name, law in TRUTH.items():
+            assert found.model.laws[name].at(current)[0] == pytest.approx(law(current), rel=0.08, abs=0.03)
+
+
+def test_a_change_that_moves_the_force_little_is_seen_where_the_noise_is_little() -> None:
+    """The offset follows the current by 1 % of the force; the noise is a tenth of that."""
+    recordings = []
+    for n, current in enumerate((0.0, 1.0, 2.0)):
+        parameters = {"c0": 0.3 + 0.3 * current, "k0": 5 + 5 * current, "F0": 0.2 * current}
+        moved = motion(4.0, rate=64, current=current)
+        recordings.append(record(made_of("kelvin_voigt", parameters), moved, noise=0.02, seed=n))
+    found = mre_core.fit_laws(recordings, "kelvin_voigt")
+    assert {name: p.law.kind for name, p in found.model.laws.items()} == dict.fromkeys(
+        ("c0", "k0", "F0"), "linear"
+    )
+
+
+def test_laws_of_noise_are_constant() -> None:
+    recordings = []
+    for n, current in enumerate((0.0, 1.0, 2.0, 3.0)):
+        moved = motion(4.0, rate=64, current=current)
+        device = made_of("kelvin_voigt", {"c0": 0.3, "k0": 5.0, "F0": 0.5})
+        recordings.append(record(device, moved, noise=3.0, seed=n))
+    found = mre_core.fit_laws(recordings, "kelvin_voigt")
+    assert {p.law.kind for p in found.model.laws.values()} == {"constant"}
+
+
 @pytest.mark.parametrize("model", ["sinh", "bouc_wen"])
 def test_a_current_that_changes(model: str) -> None:
     """Recordings under a slow sweep of the current, of a device that follows linear laws."""
@@ -289,6 +324,13 @@ def test_spoiled_files(tmp_path: Path, spoil: Callable[[dict[str, Any]], None], 
         Model.load(file)
     assert str(caught.value).startswith(str(file))
     assert problem in str(caught.value) or problem == "not a model"
+
+
+def test_no_force_at_all() -> None:
+    still = [motion(rate=64, current=current) for current in (0.0, 1.0, 2.0)]
+    recordings = [record(made_of("kelvin_voigt", {"c0": 0.0, "k0": 0.0, "F0": 0.0}), m) for m in still]
+    found = mre_core.fit_laws(recordings, "kelvin_voigt")
+    assert (found.rms, found.relative_rms, set(found.by_level.values())) == (0.0, 0.0, {0.0})
 
 
 def test_refused() -> None:

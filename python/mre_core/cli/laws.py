@@ -69,7 +69,8 @@ def laws(
 ) -> int:
     """Fit RECORDINGS (files or folders) at several currents together, with laws over the current.
 
-    A law that is not given is chosen by how well it predicts currents that are left out of the fit.
+    A law that is not given is chosen by how well it predicts currents that are left out of the fit, and is
+    not constant where the fit plainly speaks for a change.
 
     \b
     Examples:
