@@ -426,7 +426,8 @@ def test_refused(cli: Cli, five: Path, tmp_path: Path) -> None:
     )
     assert "both a model and a base are given" in refused(*sinh, "--base", "sinh")
     assert "the model is 'sin'" in refused(*good, "--model", "sin")
-    assert "a folder without recordings, wanted" in refused("batch", tmp_path, "--model", "sinh", *new)
+    nothing = refused("batch", tmp_path, "--model", "sinh", *new)
+    assert f"a folder without recordings ({out.name}: results of mre-core batch), wanted" in nothing
     assert "nowhere: cannot be read: No such file" in refused("batch", tmp_path / "nowhere", *sinh[2:], *new)
     assert "--seeds 3:1" in refused(*sinh, *new, "--seeds", "3:1")
     assert "both a seed and seeds" in refused(*sinh, *new, "--seeds", "1:3", "--seed", "1")

@@ -13,7 +13,7 @@ from .encoding import decode
 from .layout import Block, Rows, find_block
 from .limits import read_bytes
 from .options import ReadOptions
-from .table import NoTableError, Table
+from .table import NoTableError, NotesError, Table
 
 if TYPE_CHECKING:
     import numpy as np
@@ -123,7 +123,7 @@ def find_table(
         raise InputError(f"has {len(lines)} lines", file=file, wanted=f"a header in line {options.header}")
     block = find_block(rows, None if options.header is None else options.header - 1)
     if block is None:
-        raise NoTableError("no header and no data", file=file, wanted=f"a header such as {_EXAMPLE}")
+        raise NotesError("no rows of numbers", file=file, wanted=f"a header such as {_EXAMPLE} and data")
     return block, rows, dialect
 
 
