@@ -1,5 +1,6 @@
 """Items of a batch are files of every format that `load` reads."""
 
+import json
 from pathlib import Path
 from typing import Any
 
@@ -69,6 +70,10 @@ def test_options_of_reading_hold_for_all(cli: Cli, tmp_path: Path) -> None:
     assert cli("batch", place, *options, *columns, "--out", tmp_path / "out") == (0, "", "")
     table = mre_core.read_results(tmp_path / "out")
     assert list(table["status"]) == ["done", "done"]
+    status, shown, _ = cli("batch", place, *options[:-1], *columns, "--json", "--out", tmp_path / "out")
+    rows = json.loads(shown)
+    assert (status, [row["item"] for row in rows]) == (0, ["a.parquet", "b.txt"])
+    assert [row["c0"] for row in rows] == pytest.approx(list(table["c0"]), rel=1e-9)
 
 
 def test_a_file_of_several_recordings_is_a_campaign(tmp_path: Path) -> None:

@@ -413,6 +413,9 @@ def test_command(cli: Cli, tmp_path: Path) -> None:
         r = mre_core.load(tmp_path / f"{fit['recording']}.csv", name_pattern="{amplitude}mm{current}A")
         error = force_of(r) - mre_core.simulate(model, r)
         assert fit["rms"] == pytest.approx(float(np.sqrt(np.mean(error**2))), rel=1e-6)
+    status, shown, err = cli(*arguments, "--config", config, "--predict", "0.5", "--json")
+    assert (status, err) == (0, "")
+    assert json.loads(shown) == content
     for wrong, problem in {
         "--law c0": "--law c0, wanted --law NAME=LAW",
         "--predict 7": "no recording at 7, wanted the current of some",

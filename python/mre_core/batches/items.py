@@ -122,8 +122,8 @@ def _written_by(entry: Path) -> str | None:
     """Name the command that wrote a folder or a file; None where none did."""
     if entry.is_dir():
         return next((name for file, name in _RESULTS.items() if (entry / file).is_file()), None)
-    settings = entry.with_name(f"{entry.stem}.settings.toml")
-    return "simulate or next-test" if _is_known(entry) and settings.is_file() else None
+    settings = f"{entry.with_suffix('')}.settings.toml"  # which may be too long for a name
+    return "simulate or next-test" if _is_known(entry) and os.path.isfile(settings) else None
 
 
 def _is_known(path: Path) -> bool:

@@ -53,26 +53,11 @@ class TextTable(Table):
 
 
 def read(path: Path, options: ReadOptions) -> list[Table]:
-    """Read a text file.
+    """Read a text file: one table for each block. See `readers` for what all readers share.
 
-    Parameters
-    ----------
-    path : Path
-        Text in any of the usual encodings, with columns between commas, semicolons, tabs, bars or blanks.
-        Lines before the header are passed over, ``#`` lines too; below it there may be a row of units.
-        The header may come again, with another block of data.
-    options : ReadOptions
-        What the user has said about it.
-
-    Returns
-    -------
-    list of Table
-        One for each block.
-
-    Raises
-    ------
-    InputError
-        The file cannot be read, is no text, or has no header or no data.
+    Text is in any of the usual encodings, with columns between commas, semicolons, tabs, bars or blanks.
+    Lines before the header are passed over, ``#`` lines too; below it there may be a row of units. The
+    header may come again, with another block of data.
     """
     file = str(path)
     data = read_bytes(path)
