@@ -101,6 +101,7 @@ def test_campaigns_and_their_currents(tmp_path: Path) -> None:
     assert list(table["current"].isna()) == [True, False]
     shown = mre_core.plot_parameters(table.reset_index())
     assert [axis.get_title() for axis in shown.axes] == ["c0", "k0", "F0"]
+    assert [axis.get_ylabel() for axis in shown.axes] == ["N s/mm", "N/mm", "N"]
     points = np.asarray(shown.axes[0].lines[0].get_xydata())
     np.testing.assert_allclose(points, [[0.0, 1.0], [0.5, 1.5], [0.5, 1.5]], atol=0.01)
     with pytest.raises(InputError, match="'c9' is no parameter of the results, wanted c0, k0, F0"):

@@ -13,6 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from mre_core import Dependence, ExtrapolationWarning, InputError, Law, Level, Model, Recording
 from mre_core.current_laws.factors import Samples, SinhFactor
+from mre_core.current_laws.plots import plot_laws
 from mre_core.current_laws.structure import Structure
 from rig import BOUC_WEN, Cli, force_of, made_of, motion, record, run_script, write_csv
 from scipy.optimize import lsq_linear, minimize_scalar  # type: ignore[import-untyped]
@@ -324,6 +325,15 @@ def test_spoiled_files(tmp_path: Path, spoil: Callable[[dict[str, Any]], None], 
         Model.load(file)
     assert str(caught.value).startswith(str(file))
     assert problem in str(caught.value) or problem == "not a model"
+
+
+def test_figure_shows_intervals_at_the_levels() -> None:
+    model = mre_core.fit_laws(campaign((0.0, 1.0, 3.0)), "sinh", {"c0": "linear"}, ["beta", "F0"]).model
+    axis = plot_laws(model).axes[0]
+    assert (axis.get_title(), axis.get_ylabel()) == ("c0: linear", "N s/mm")
+    drawn = [line.get_xydata().tolist() for line in axis.lines[2:]]  # type: ignore[union-attr]
+    ends = [(level.current, level.intervals["c0"]) for level in model.levels]
+    assert drawn == [[[at, low], [at, high]] for at, (low, high) in ends]
 
 
 def test_no_force_at_all() -> None:
