@@ -1,12 +1,15 @@
 """How the texts of options are read."""
 
 import math
+import warnings
 from collections.abc import Collection, Iterable, Sequence
 from typing import Any
 
 from .._core import Recording
+from ..conditions import conditions_in_name
 from ..errors import InputError
 from ..files import ReadOptions
+from ..guesses import guess_pattern
 from ..load import load
 from ..load import load_all as load_campaign
 from ..units import ROLES
@@ -78,15 +81,29 @@ def load_all(
     name_pattern: str | None,
     reading: Sequence[str] = (),
 ) -> list[Recording]:
-    """Load the recordings of a command."""
+    """Load the recordings of a command; currents in file names that nobody asked for are pointed out."""
     fixed: dict[str, Any] = pairs("--set", conditions)  # roles: checked there
-    return load_campaign(
+    found = load_campaign(
         paths,
         map=pairs("--map", mapping),
         name_pattern=name_pattern,
         read=pairs("--read", reading, ReadOptions._fields),
         **fixed,
     )
+    if name_pattern is None and all(recording.current is None for recording in found):
+        _point_out_currents([recording.name.partition("#")[0] for recording in found])
+    return found
+
+
+def _point_out_currents(names: Sequence[str]) -> None:
+    """Warn of recordings at several currents that would be fitted as if they were at one."""
+    pattern = guess_pattern(names)
+    if pattern is None:
+        return
+    currents = {conditions_in_name(name, pattern).get("current") for name in names}
+    if len(currents) > 1:
+        text = "the file names state currents, which are not used: recordings count as at one current, unless"
+        warnings.warn(f"{text} --name-pattern '{pattern}' is given", stacklevel=3)
 
 
 def read_bounds(texts: Iterable[str]) -> dict[str, tuple[float, float]]:
