@@ -20,8 +20,8 @@ PARTS = [DOCS / "proof", DOCS / "real" / "table.md"]
 PAGES = sorted(page for page in DOCS.rglob("*.md") if not any(page.is_relative_to(part) for part in PARTS))
 TESTED_APART = {DOCS / "how-to" / "files.md"}
 """By tests/test_how_to_files.py, which makes the files that its blocks read."""
-OTHERS_OPTIONS = {"--nthreads", "--cases", "--modle"}
-"""Of dask's workers, of a script in `benches`, and one that is none."""
+OTHERS_OPTIONS = {"--help", "--nthreads", "--cases", "--modle"}
+"""Of every command, of dask's workers, of a script in `benches`, and one that is none."""
 BLOCK = re.compile(r"```(python|console)\n(.*?)```", flags=re.DOTALL)
 
 
