@@ -17,6 +17,9 @@ const TRIAL_SAMPLES: usize = 4_000;
 /// Widest half window in samples of what a displacement has beside its velocity.
 const WIDEST: usize = 200;
 
+/// Noise below this share of the displacement, rms, is left in it.
+const NEGLIGIBLE: f64 = 1e-4;
+
 /// A derived velocity and the window it came from.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Derived {
@@ -44,7 +47,11 @@ pub fn without_noise(time: &[f64], displacement: &[f64], velocity: &[f64]) -> Ve
     let travelled = integral(time, velocity);
     let beside: Vec<f64> = displacement.iter().zip(&travelled).map(|(x, s)| x - s).collect();
     let kept = smooth(time, &beside, WIDEST).displacement;
-    kept.iter().zip(&travelled).map(|(d, s)| d + s).collect()
+    let found: Vec<f64> = kept.iter().zip(&travelled).map(|(d, s)| d + s).collect();
+    let taken: f64 = found.iter().zip(displacement).map(|(a, b)| (a - b).powi(2)).sum();
+    let moved: f64 = displacement.iter().map(|x| x * x).sum();
+    // The integral has an error as well.
+    if taken > NEGLIGIBLE.powi(2) * moved { found } else { displacement.to_vec() }
 }
 
 /// Integral from the first sample, by cubics through the values with the slopes of their neighbours.

@@ -35,7 +35,7 @@ impl Campaign {
             }
             evenly_sampled(recording)?;
         }
-        let recordings: Vec<Arc<Recording>> = recordings.into_par_iter().map(of_one_motion).collect();
+        let recordings: Vec<Arc<Recording>> = recordings.par_iter().map(|r| of_one_motion(r)).collect();
         let sizes = Sizes::of(recordings.iter().map(AsRef::as_ref));
         Ok(Self::with_sizes(recordings, sizes))
     }
@@ -96,7 +96,7 @@ impl Campaign {
 ///
 /// Otherwise the displacement noise, which the force does not follow, could be told from the two, and every
 /// effect with memory would seem to explain it.
-fn of_one_motion(recording: Arc<Recording>) -> Arc<Recording> {
+fn of_one_motion(recording: &Recording) -> Arc<Recording> {
     let (time, x, v) = (recording.time(), recording.displacement(), recording.velocity());
     let displacement = match recording.velocity_window() {
         Some(_) => velocity::from_displacement(time, x).displacement,

@@ -7,6 +7,7 @@
 use std::f64::consts::PI;
 
 use super::distribution::chi_square_tail;
+use crate::recording::mean;
 
 /// Half-cosines that make a drift.
 const SLOW: usize = 3;
@@ -21,10 +22,8 @@ const CAUTION: f64 = 2.0;
 
 /// The residuals without their drift, if there is one.
 pub(super) fn without_drift(residuals: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let waves: Vec<Vec<f64>> =
-        residuals.iter().map(|e| (1..BESIDE.end).map(|k| amplitude(e, k)).collect()).collect();
-    let excess: f64 = waves.iter().map(|w| excess(w)).sum();
-    if chi_square_tail(excess / CAUTION, SLOW * residuals.len()) > CHANCE {
+    let waves = waves(residuals);
+    if chance_of(&waves) > CHANCE {
         return residuals.to_vec();
     }
     residuals
@@ -44,8 +43,7 @@ pub(super) fn chance(residuals: &[Vec<f64>]) -> f64 {
 }
 
 fn chance_of(waves: &[Vec<f64>]) -> f64 {
-    let excess: f64 = waves.iter().map(|w| excess(w)).sum();
-    chi_square_tail(excess / CAUTION, SLOW * waves.len())
+    chi_square_tail(excess(waves) / CAUTION, SLOW * waves.len())
 }
 
 /// Amplitudes of the half-cosines of each residual.
@@ -62,17 +60,26 @@ fn amplitude(series: &[f64], k: usize) -> f64 {
     series.iter().enumerate().map(|(i, e)| e * wave(series.len(), k, i)).sum()
 }
 
-/// Squares of the slow amplitudes over the extrapolated power.
-fn excess(waves: &[f64]) -> f64 {
-    // Least-squares line through the logarithms of squares against those of the frequency; the mean logarithm
-    // of a chi-square variable with one degree of freedom is -1.27.
-    let points: Vec<(f64, f64)> = BESIDE
-        .map(|k| ((k as f64).ln(), (waves[k - 1].powi(2)).max(f64::MIN_POSITIVE).ln() + 1.27))
-        .collect();
-    let count = points.len() as f64;
-    let (x, y) = points.iter().fold((0.0, 0.0), |s, p| (s.0 + p.0 / count, s.1 + p.1 / count));
-    let (xy, xx) =
-        points.iter().fold((0.0, 0.0), |s, p| (s.0 + (p.0 - x) * (p.1 - y), s.1 + (p.0 - x).powi(2)));
-    let slope = (xy / xx).clamp(STEEPEST, 0.0);
-    (1..=SLOW).map(|k| waves[k - 1].powi(2) / (y + slope * ((k as f64).ln() - x)).exp()).sum()
+/// Squares of the slow amplitudes of all residuals over the extrapolated powers.
+///
+/// The spectra have levels of their own and one slope: that of a single one is too uncertain to extrapolate. One
+/// standard error is added to it.
+fn excess(waves: &[Vec<f64>]) -> f64 {
+    let logarithms: Vec<f64> = BESIDE.map(|k| (k as f64).ln()).collect();
+    let x = mean(&logarithms);
+    // Least-squares lines through the logarithms of squares against those of the frequency; the mean logarithm of a
+    // chi-square variable with one degree of freedom is -1.27, its variance pi^2 / 2.
+    let heights = |w: &Vec<f64>| -> Vec<f64> {
+        BESIDE.map(|k| w[k - 1].powi(2).max(f64::MIN_POSITIVE).ln() + 1.27).collect()
+    };
+    let heights: Vec<Vec<f64>> = waves.iter().map(heights).collect();
+    let xx = waves.len() as f64 * logarithms.iter().map(|l| (l - x).powi(2)).sum::<f64>();
+    let of = |own: &Vec<f64>| logarithms.iter().zip(own).map(|(l, y)| (l - x) * y).sum::<f64>();
+    let slope = heights.iter().map(of).sum::<f64>() / xx;
+    let slope = (slope - (0.5 * PI * PI / xx).sqrt()).clamp(STEEPEST, 0.0);
+    let over = |(w, own): (&Vec<f64>, &Vec<f64>)| {
+        let level = mean(own);
+        (1..=SLOW).map(|k| w[k - 1].powi(2) / (level + slope * ((k as f64).ln() - x)).exp()).sum::<f64>()
+    };
+    waves.iter().zip(&heights).map(over).sum()
 }

@@ -67,7 +67,9 @@ fn alone<'a>(
     let effects = named.assembly.effects().len() - begun.assembly.effects().len();
     let parameters = named.fitted.parameters() - base.parameters();
     let improvement = explained - parameters as f64 * (base.rows as f64).ln();
-    let surpassed = effects > 0 && of_all.improvement > improvement + CLEAR;
+    // A drift has parameters in every recording, and even smooth forces have a slow part.
+    let drifts = named.assembly.effects().iter().any(|e| e.slow() && e.of_the_measurement());
+    let surpassed = effects > 0 && !drifts && of_all.improvement > improvement + CLEAR;
     let tests = Tests { first, rest, smooth: of_rest.p_value, explained, change, surpassed };
     let evidence = Evidence::new(&tests, &named, begun.noise.hidden(), false_alarm);
     let verdict = evidence.verdict(effects);

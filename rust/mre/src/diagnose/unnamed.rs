@@ -12,6 +12,9 @@ const WAVES: (f64, f64, f64) = (1.25, 10.0, 0.25);
 /// Share of a column's square that the projection has to leave.
 const SMALLEST_SHARE: f64 = 1e-6;
 
+/// A function of displacement and velocity over their largest.
+type Term = fn(f64, f64) -> f64;
+
 /// Terms of displacement and velocity together, of unit size, and whether they are odd. Even ones have a slow part,
 /// which slow noise has too: a test of them would find that.
 const TERMS: [(fn(f64, f64) -> f64, bool); 4] =
