@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 export CARGO_BUILD_JOBS ?= 2
 STAMP := $(VENV)/.installed
 
-.PHONY: demo study test test-rust test-python lint bench figures rivals trials proof bad-inputs fuzz moments third-party docs install clean
+.PHONY: demo study test test-rust test-python lint bench figures rivals trials proof bad-inputs fuzz moments endurance advisories third-party docs install clean
 
 # The main job: identify the paper's twelve tests (a simulated replica) with both models and all swarms.
 demo: install
@@ -67,6 +67,10 @@ fuzz: install
 
 moments: install
 	PYTHONPATH=tests $(BIN)/python -m moments 200
+
+# Mixed work in one process for MINUTES: fails where memory, files, threads or processes are kept.
+endurance: install
+	PYTHONPATH=tests $(BIN)/python -m endurance $(or $(MINUTES),60)
 
 # The list of what others have made, with licences.
 third-party: install
