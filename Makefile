@@ -72,6 +72,15 @@ moments: install
 endurance: install
 	PYTHONPATH=tests $(BIN)/python -m endurance $(or $(MINUTES),60)
 
+# Known vulnerabilities of everything installed and of every crate in Cargo.lock. Asks the Python Package Index and the
+# advisory database of RustSec; fails where one of them cannot be reached.
+advisories: install
+	$(BIN)/python -m pip install --quiet "pip-audit>=2.10,<3"
+	$(BIN)/python -m pip freeze --quiet --exclude-editable > $(VENV)/installed.txt
+	$(BIN)/pip-audit --strict --no-deps --disable-pip --progress-spinner off --requirement $(VENV)/installed.txt
+	cargo install --quiet --locked --root $(VENV) cargo-audit@0.22.2
+	$(BIN)/cargo-audit audit --deny warnings
+
 # The list of what others have made, with licences.
 third-party: install
 	PYTHONPATH=tests $(BIN)/python -m licences

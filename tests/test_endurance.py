@@ -36,6 +36,7 @@ def test_what_stays_open(name: str) -> None:
     assert leaks(told) == [f"{name}: {getattr(told[0], name)} at the start, 12 at the end"]
 
 
+@pytest.mark.filterwarnings("ignore::mre_core.errors.ExtrapolationWarning")
 def test_a_round_of_every_job(tmp_path: Path) -> None:
     draw = random.Random(1)
     for job in JOBS.values():

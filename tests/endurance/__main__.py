@@ -4,6 +4,7 @@ import random
 import sys
 import tempfile
 import time
+import warnings
 from pathlib import Path
 
 from .health import Health, leaks
@@ -17,8 +18,10 @@ def main(minutes: float, seed: int) -> int:
     with tempfile.TemporaryDirectory() as folder:
 
         def work() -> None:
-            for job in JOBS.values():
-                job(draw, Path(folder))
+            with warnings.catch_warnings():  # of random data there is much to say
+                warnings.simplefilter("ignore")
+                for job in JOBS.values():
+                    job(draw, Path(folder))
 
         work()  # libraries are loaded, pools and caches made
         print("| after / min | rounds | memory / MiB | open files | threads | processes |")

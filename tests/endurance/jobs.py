@@ -3,7 +3,6 @@
 import json
 import random
 import shutil
-import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, Final
@@ -56,17 +55,13 @@ def batch(draw: random.Random, folder: Path) -> None:
 
 def refuse(draw: random.Random, folder: Path) -> None:
     """What cannot be done leaves nothing behind either."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        for wrong in (
-            lambda: mre_core.load(folder / "none.csv"),
-            lambda: mre_core.Recording([0.0], [1.0], None),
-        ):
-            try:
-                wrong()
-            except mre_core.MreError:
-                continue
-            raise AssertionError("taken")
+    missing, short = folder / "none.csv", [0.0]
+    for wrong in (lambda: mre_core.load(missing), lambda: mre_core.Recording(short, short, None)):
+        try:
+            wrong()
+        except mre_core.MreError:
+            continue
+        raise AssertionError("taken")
 
 
 JOBS: Final[dict[str, Callable[[random.Random, Path], None]]] = {

@@ -98,9 +98,8 @@ pub(crate) fn fit_bootstrap<'py>(
     let values = vector("x", x)?;
     let count = usize::try_from(replicates)
         .map_err(|_| setting("replicates", replicates, "a whole number of at least 2"))?;
-    let job = |link: &Link| {
-        uncertainty::bootstrap(&problem.inner, &values, count, level, seed, link.cancel())
-    };
+    let job =
+        |link: &Link| uncertainty::bootstrap(&problem.inner, &values, count, level, seed, link.cancel());
     let found = in_pool(py, threads, None, true, job)?.0.map_err(to_python)?;
     let rows = matrix(py, &found.rows, found.names.len())?;
     Ok((found.names, rows, found.intervals, found.blocks))
