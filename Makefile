@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 export CARGO_BUILD_JOBS ?= 2
 STAMP := $(VENV)/.installed
 
-.PHONY: demo study test test-rust test-python lint bench figures rivals trials proof bad-inputs fuzz moments endurance advisories third-party docs install clean
+.PHONY: demo study test test-rust test-python lint bench figures rivals trials proof bad-inputs fuzz moments endurance wheel advisories third-party docs install clean
 
 # The main job: identify the paper's twelve tests (a simulated replica) with both models and all swarms.
 demo: install
@@ -72,6 +72,12 @@ moments: install
 endurance: install
 	PYTHONPATH=tests $(BIN)/python -m endurance $(or $(MINUTES),60)
 
+# The wheel, made from the source distribution, in an empty environment of every Python found.
+wheel: install
+	rm -rf dist
+	$(BIN)/maturin build --release --sdist --out dist
+	PYTHONPATH=tests $(BIN)/python -m installation dist/*.whl
+
 # Known vulnerabilities of everything installed and of every crate in Cargo.lock. Asks the Python Package Index and the
 # advisory database of RustSec; fails where one of them cannot be reached.
 advisories: install
@@ -104,4 +110,4 @@ $(STAMP): pyproject.toml Cargo.toml Cargo.lock $(shell find rust python -name '*
 	touch $(STAMP)
 
 clean:
-	rm -rf $(VENV) target demo study site trial judged
+	rm -rf $(VENV) target dist demo study site trial judged
