@@ -5,7 +5,8 @@ BIN := $(VENV)/bin
 export CARGO_BUILD_JOBS ?= 2
 STAMP := $(VENV)/.installed
 
-.PHONY: demo study test test-rust test-python lint bench figures rivals trials proof bad-inputs fuzz moments endurance wheel advisories third-party docs install clean
+.PHONY: demo study test test-rust test-python lint bench figures rivals trials proof rates bad-inputs fuzz moments \
+	endurance wheel advisories third-party docs install clean
 
 # The main job: identify the paper's twelve tests (a simulated replica) with both models and all swarms.
 demo: install
@@ -59,6 +60,13 @@ proof: install
 	$(BIN)/mre-core trial run judged
 	$(BIN)/mre-core trial open judged --tables docs/proof/judging
 	$(BIN)/python benches/real_proof
+	$(BIN)/python benches/proof.py
+
+# How often the diagnosis is right, by experiment; SEED is a judging seed that was never run.
+rates: install
+	test -n "$(SEED)"
+	for e in singles others pairs removed unknown nulls weak; do \
+	  $(BIN)/python benches/rates $$e --cases $(or $(CASES),200) --seed $(SEED); done
 	$(BIN)/python benches/proof.py
 
 # Random input for about ten minutes, and every command stopped 200 times.

@@ -9,7 +9,7 @@ import pytest
 BENCHES = Path(__file__).resolve().parents[1] / "benches"
 
 
-@pytest.mark.parametrize("script", ["real_proof", "rivals", "discovery"])
+@pytest.mark.parametrize("script", ["real_proof", "rivals", "discovery", "rates"])
 def test_script_starts(script: str) -> None:
     done = subprocess.run(
         [sys.executable, BENCHES / script, "--help"], capture_output=True, text=True, check=False

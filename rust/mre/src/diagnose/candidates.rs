@@ -42,11 +42,7 @@ pub struct Candidate<'a> {
 impl Candidate<'_> {
     /// Whitened Bayesian information criterion, up to a constant.
     pub fn criterion(&self) -> f64 {
-        self.fitted.left + self.parameters() as f64 * (self.fitted.rows as f64).ln()
-    }
-
-    fn parameters(&self) -> usize {
-        self.fitted.coefficients.len() + self.fitted.unit.len()
+        self.fitted.left + self.fitted.parameters() as f64 * (self.fitted.rows as f64).ln()
     }
 
     /// Id of the last effect.
@@ -80,7 +76,7 @@ pub(super) fn of_the_scored(recording: &Recording, force: &[f64]) -> Vec<f64> {
 
 /// The noise that a fit leaves: all of its residual, unless that is plainly a mismatch.
 pub(super) fn noise_left(assembly: &Assembly, data: Data, fitted: &Fitted) -> Noise {
-    let freedom = fitted.coefficients.len() + fitted.unit.len();
+    let freedom = fitted.parameters();
     let left = residuals(assembly, data, fitted);
     match plain_mismatch::find(assembly, &left, data.noise) {
         Some(size) => Noise::beside_a_mismatch(left.len(), size),
@@ -216,6 +212,6 @@ pub(super) fn candidates<'a>(
     // In a tie the plainest is named: fewest parameters, then the first of the catalogue.
     let best = found.first().map_or(0.0, Candidate::criterion);
     let tied = found.partition_point(|c| c.criterion() <= best + TIE);
-    found[..tied].sort_by_key(|c| (c.parameters(), c.place()));
+    found[..tied].sort_by_key(|c| (c.fitted.parameters(), c.place()));
     found
 }

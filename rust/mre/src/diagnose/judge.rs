@@ -8,8 +8,12 @@ use super::monitor::Monitor;
 use super::normal::Rows;
 use super::screen::Null;
 use super::search::{Named, rms};
-use super::verdict::{Evidence, Verdict};
+use super::unnamed::{self, Unnamed};
+use super::verdict::{Evidence, Tests, Verdict};
 use crate::assembly::Assembly;
+
+/// Advantage in the criterion that counts.
+const CLEAR: f64 = 10.0;
 
 /// A model with what speaks for and against it.
 pub(super) struct Judged<'a> {
@@ -51,16 +55,22 @@ fn alone<'a>(
     settle_reference(&mut named, rows, monitor);
     let data = Data { noise: &named.noise, rows, monitor };
     let base = refine(&begun.assembly, data, &begun.fitted.unit);
-    let mismatch = |assembly: &Assembly, fitted: &Fitted| {
-        let null = Null::new(assembly, data, &fitted.unit);
-        null.as_ref().map(Null::generic).as_ref().map_or(Mismatch::NONE, Generic::mismatch)
-    };
-    let first = mismatch(&begun.assembly, &base);
-    let rest = mismatch(&named.assembly, &named.fitted);
+    let beside = |assembly: &Assembly<'a>, fitted: &Fitted| Null::new(assembly, data, &fitted.unit);
+    let (alone, last) = (beside(&begun.assembly, &base), beside(&named.assembly, &named.fitted));
+    let mismatch =
+        |null: Option<&Null>| null.map(Null::generic).as_ref().map_or(Mismatch::NONE, Generic::mismatch);
+    let (first, rest) = (mismatch(alone.as_ref()), mismatch(last.as_ref()));
+    let smooth = |null: Option<&Null>| null.map_or(Unnamed::NONE, |null| unnamed::best(null, base.rows));
+    let (of_all, of_rest) = (smooth(alone.as_ref()), smooth(last.as_ref()));
     let explained = (base.left - named.fitted.left).max(0.0);
     let change = rms_change(&named, data);
-    let evidence = Evidence::new(first, rest, explained, &named, begun.noise.hidden(), change, false_alarm);
-    let verdict = evidence.verdict(named.assembly.effects().len() - begun.assembly.effects().len());
+    let effects = named.assembly.effects().len() - begun.assembly.effects().len();
+    let parameters = named.fitted.parameters() - base.parameters();
+    let improvement = explained - parameters as f64 * (base.rows as f64).ln();
+    let surpassed = effects > 0 && of_all.improvement > improvement + CLEAR;
+    let tests = Tests { first, rest, smooth: of_rest.p_value, explained, change, surpassed };
+    let evidence = Evidence::new(&tests, &named, begun.noise.hidden(), false_alarm);
+    let verdict = evidence.verdict(effects);
     Judged { named, base, evidence, verdict }
 }
 

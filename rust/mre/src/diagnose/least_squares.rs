@@ -31,6 +31,13 @@ pub struct Fitted {
     pub rows: usize,
 }
 
+impl Fitted {
+    /// Number of parameters.
+    pub(super) fn parameters(&self) -> usize {
+        self.coefficients.len() + self.unit.len()
+    }
+}
+
 /// What a fit is made on.
 #[derive(Clone, Copy)]
 pub(super) struct Data<'a> {

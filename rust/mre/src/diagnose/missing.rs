@@ -6,11 +6,24 @@ use nalgebra::DVector;
 use super::distribution::chi_square_tail;
 use super::features::{On, features};
 use super::screen::Null;
+use crate::effect::Scene;
 
 /// Share of a feature's square that the projection has to leave.
 const SMALLEST_SHARE: f64 = 1e-7;
 /// Most recordings that are compared one by one.
 const MOST_RECORDINGS: usize = 24;
+
+/// Stretches of time over which a stiffness may come and go.
+const STRETCHES: usize = 6;
+
+/// A stiffness that comes and goes: at the end of every stretch but the last.
+fn passing(scene: &Scene) -> impl Iterator<Item = Vec<f64>> {
+    let length = scene.duration() / STRETCHES as f64;
+    (1..STRETCHES).map(move |k| {
+        let near = |t: f64| (1.0 - ((t - scene.time[0]) / length - k as f64).abs()).max(0.0);
+        scene.time.iter().zip(scene.displacement).map(|(t, x)| near(*t) * x).collect()
+    })
+}
 
 /// Outcome of the test.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -111,12 +124,13 @@ impl Null<'_> {
         let recordings = self.assembly().campaign().recordings().len();
         let own = if (2..=MOST_RECORDINGS).contains(&recordings) { recordings } else { 0 };
         let mut on: Vec<On> = features(&self.scene(0)).iter().map(|f| f.on).collect();
+        on.extend([On::Time; STRETCHES - 1]);
         let count = on.len();
         on.extend(vec![On::Recording; own]);
         let (gram, right, squares) = self.project(count + own, |r| {
             let scene = self.scene(r);
             let mut columns: Vec<(usize, Vec<f64>)> =
-                features(&scene).into_iter().map(|f| f.column).enumerate().collect();
+                features(&scene).into_iter().map(|f| f.column).chain(passing(&scene)).enumerate().collect();
             if own > 0 {
                 columns.push((count + r, scene.force.to_vec()));
             }

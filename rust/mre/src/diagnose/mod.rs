@@ -35,6 +35,7 @@ mod search;
 mod settings;
 mod step;
 mod unknown;
+mod unnamed;
 mod verdict;
 
 pub use absorbed::Absorbed;

@@ -7,11 +7,13 @@ use super::search::Named;
 /// Shares of the rest above which names are not trusted, for one effect and for several: effects that are not
 /// there, bent towards one that is in no catalogue, leave more. Several bend further, and so have to fit better.
 const TRUSTED: [f64; 2] = [0.3, 0.01];
-/// A rest above this part of that share is more than an inexact form.
-const FORM: f64 = 0.25;
+/// A rest above these shares is more than an inexact form.
+const FORM: [f64; 2] = [0.02, 0.0025];
+/// The same where the base plainly misses: a real device has no exact form.
+const PLAIN_FORM: f64 = 0.075;
 
 /// Names are doubted only where the rest is beyond chance by far: a small one may be the noise's.
-const BEYOND_CHANCE: f64 = 1e-5;
+const BEYOND_CHANCE: f64 = 1e-3;
 
 /// The verdicts of `diagnosis.json`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -45,8 +47,8 @@ pub struct Evidence {
     pub p_base: f64,
     /// Chance of the final model's.
     pub p_rest: f64,
-    /// True where the final model's mismatch is significant.
-    pub rest: bool,
+    /// Stated chance of a false alarm.
+    pub false_alarm: f64,
     /// Share of the rest in all that can be explained, in squared standard deviations.
     pub share: f64,
     /// Rms in N of the force that the best further candidate would add.
@@ -55,21 +57,32 @@ pub struct Evidence {
     pub plain: bool,
     /// True where what is left hides the noise.
     pub hidden: bool,
+    /// True where a smooth force that no effect has explains more than the effects named.
+    pub surpassed: bool,
+}
+
+/// What a judgement is made of.
+pub(super) struct Tests {
+    /// Mismatch of the base model.
+    pub(super) first: Mismatch,
+    /// Mismatch of the final model.
+    pub(super) rest: Mismatch,
+    /// Chance of the strongest smooth force that no effect has, beside the final model.
+    pub(super) smooth: f64,
+    /// Squared standard deviations that the effects explain.
+    pub(super) explained: f64,
+    /// Rms in N of the force that the best further candidate would add.
+    pub(super) change: f64,
+    /// True where a smooth force that no effect has explains more.
+    pub(super) surpassed: bool,
 }
 
 impl Evidence {
-    pub(super) fn new(
-        first: Mismatch,
-        rest: Mismatch,
-        explained: f64,
-        named: &Named,
-        plain: bool,
-        change: f64,
-        false_alarm: f64,
-    ) -> Self {
+    pub(super) fn new(tests: &Tests, named: &Named, plain: bool, false_alarm: f64) -> Self {
+        let Tests { first, rest, smooth, explained, change, surpassed } = *tests;
         let catalogue = by_effect(&named.scores);
         let holm = catalogue.iter().map(|(_, p)| *p).fold(1.0, f64::min) * catalogue.len() as f64;
-        let p_rest = (2.0 * rest.p_value.min(holm)).min(1.0);
+        let p_rest = (3.0 * rest.p_value.min(holm).min(smooth)).min(1.0);
         let gain = named.next.as_ref().map_or(0.0, |n| (named.fitted.left - n.fitted.left).max(0.0));
         let left = rest.excess.max(gain);
         let share = if left > 0.0 { left / (left + explained) } else { 0.0 };
@@ -77,27 +90,31 @@ impl Evidence {
         Self {
             p_base: first.p_value,
             p_rest,
-            rest: significant,
+            false_alarm,
             share,
             lack_of_fit: if significant { change } else { 0.0 },
             plain,
             hidden: named.noise.hidden(),
+            surpassed,
         }
     }
 
     pub(super) fn verdict(&self, effects: usize) -> Verdict {
-        let trusted = if self.plain { TRUSTED[0] } else { TRUSTED[usize::from(effects > 1)] };
-        match (effects, self.rest) {
+        let several = usize::from(effects > 1);
+        let (trusted, form) =
+            if self.plain { (TRUSTED[0], PLAIN_FORM) } else { (TRUSTED[several], FORM[several]) };
+        match (effects, self.approximate()) {
             (0, false) => Verdict::Adequate,
             (0, true) => Verdict::Unexplained,
+            _ if self.surpassed => Verdict::Unexplained,
             (_, true) if self.share > trusted && self.p_rest < BEYOND_CHANCE => Verdict::Unexplained,
-            (_, true) if self.hidden || self.share > FORM * trusted => Verdict::PartlyExplained,
+            (_, true) if self.hidden || self.share > form => Verdict::PartlyExplained,
             _ => Verdict::MissingPhysics,
         }
     }
 
-    /// True where the law of the named effects is not exactly the catalogue's.
+    /// True where a mismatch is left: the law of the named effects is not exactly the catalogue's.
     pub fn approximate(&self) -> bool {
-        self.rest
+        self.p_rest <= self.false_alarm
     }
 }

@@ -1,0 +1,124 @@
+"""What is drawn for each experiment: campaigns with known answers, by a seed."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from itertools import cycle, islice
+
+import numpy as np
+from mre_core.concealed import BASES, effects, laws_of
+
+STRENGTHS = (3.0, 1.0, 0.5)
+"""What the effect leaves of the refitted base, over the noise, rms."""
+WEAK = (0.25, 0.1, 0.05)
+EACH_OF_A_PAIR = 2.0
+NOISES = ("white", "ar60", "ar97")
+EVERY_NOISE = ("white", "ar60", "ar97", "ar995", "pink", "narrow", "mains", "student", "quantised")
+NULL_SAMPLES = 10_000
+DISPLACEMENT_NOISE = 0.003
+"""mm, on every third null."""
+LEVEL = 0.01
+"""Stated rate of false alarms."""
+
+
+@dataclass(frozen=True)
+class Trial:
+    """One diagnosis: what is concealed, and which effects the tool may not name."""
+
+    effects: tuple[str, ...]
+    laws: tuple[str, ...]
+    base: str
+    strength: float
+    noise: str
+    velocity: str
+    seed: int
+    samples: int | None = None
+    displacement_noise: float = 0.0
+    without: tuple[str, ...] = ()
+    false_alarm: float = LEVEL
+
+
+NAMED = tuple(name for name in effects() if name != "unknown")
+Draw = Callable[[np.random.Generator], Trial]
+
+
+def _trial(rng: np.random.Generator, ids: tuple[str, ...], laws: tuple[str, ...], strength: float) -> Trial:
+    return Trial(
+        ids,
+        laws,
+        str(rng.choice(BASES)),
+        strength,
+        str(rng.choice(NOISES)),
+        str(rng.choice(["given", "given", "derived"])),
+        int(rng.integers(2**32)),
+    )
+
+
+def singles(rng: np.random.Generator) -> Iterator[Trial]:
+    """Textbook laws at the three strengths in turn."""
+    for strength, effect in _crossed(STRENGTHS):
+        yield _trial(rng, (effect,), (laws_of(effect)[0],), strength)
+
+
+def others(rng: np.random.Generator) -> Iterator[Trial]:
+    """Other laws of the same physics than the textbook's."""
+    for strength, effect in _crossed(STRENGTHS):
+        if len(laws := laws_of(effect)) > 1:
+            yield _trial(rng, (effect,), (str(rng.choice(laws[1:])),), strength)
+
+
+def pairs(rng: np.random.Generator) -> Iterator[Trial]:
+    """Two effects, each alone twice the noise."""
+    for first in cycle(NAMED):
+        second = str(rng.choice([name for name in NAMED if name != first]))
+        yield _trial(rng, (first, second), (laws_of(first)[0], laws_of(second)[0]), EACH_OF_A_PAIR)
+
+
+def removed(rng: np.random.Generator) -> Iterator[Trial]:
+    """Each effect in turn may not be named."""
+    for strength, effect in _crossed(STRENGTHS[:2]):
+        made = _trial(rng, (effect,), (laws_of(effect)[0],), strength)
+        yield Trial(**{**vars(made), "without": (effect,)})
+
+
+def unknown(rng: np.random.Generator) -> Iterator[Trial]:
+    """Physics of no catalogue."""
+    laws = laws_of("unknown")
+    for strength in cycle(STRENGTHS):
+        for law in laws:
+            yield _trial(rng, ("unknown",), (law,), strength)
+
+
+def nulls(rng: np.random.Generator) -> Iterator[Trial]:
+    """Nothing is missing, with every kind of noise."""
+    for place, noise in enumerate(cycle(EVERY_NOISE)):
+        made = _trial(rng, (), (), 0.0)
+        shaken = DISPLACEMENT_NOISE if (place // len(EVERY_NOISE)) % 3 == 2 else 0.0
+        changed = {"noise": noise, "samples": NULL_SAMPLES, "displacement_noise": shaken}
+        yield Trial(**{**vars(made), **changed})
+
+
+def weak(rng: np.random.Generator) -> Iterator[Trial]:
+    """Small effects: the tool, and an oracle that tests the concealed one alone at its share of the level."""
+    for strength, effect in _crossed(WEAK):
+        made = _trial(rng, (effect,), (laws_of(effect)[0],), strength)
+        yield made
+        ruled_out = tuple(name for name in NAMED if name != effect)
+        yield Trial(**{**vars(made), "without": ruled_out, "false_alarm": LEVEL / len(NAMED)})
+
+
+def _crossed(strengths: tuple[float, ...]) -> Iterator[tuple[float, str]]:
+    """Every effect at a strength, the strengths in turn; each effect meets every strength."""
+    for turn in cycle(range(len(strengths))):
+        for place, effect in enumerate(NAMED):
+            yield strengths[(place + turn) % len(strengths)], effect
+
+
+PLANS: dict[str, Callable[[np.random.Generator], Iterator[Trial]]] = {
+    plan.__name__: plan for plan in (singles, others, pairs, removed, unknown, nulls, weak)
+}
+
+
+def drawn(name: str, cases: int, seed: int) -> list[Trial]:
+    """The first cases of an experiment."""
+    rng = np.random.default_rng([seed, list(PLANS).index(name)])
+    return list(islice(PLANS[name](rng), cases))
