@@ -3,7 +3,7 @@
 import json
 import re
 import subprocess
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -61,7 +61,7 @@ def done(run: "subprocess.CompletedProcess[str]") -> None:
     assert (run.returncode, run.stderr) == (0, "")
 
 
-def run(arguments: list[str | Path], clock: dict[str, str] | None) -> "subprocess.CompletedProcess[str]":
+def run(arguments: Sequence[str | Path], clock: dict[str, str] | None) -> "subprocess.CompletedProcess[str]":
     return subprocess.run(
         command(*arguments), env=clock, capture_output=True, text=True, timeout=300, check=False
     )
@@ -69,7 +69,7 @@ def run(arguments: list[str | Path], clock: dict[str, str] | None) -> "subproces
 
 def test_an_identification_and_its_budget(clock: dict[str, str], tmp_path: Path) -> None:
     limited = ["--optimizer", "pso", "--iterations", LONG, "--time-limit", "0.5", "--quiet"]
-    arguments = ["identify", one(tmp_path), "--model", "sinh", "--seed", "1"]
+    arguments: list[str | Path] = ["identify", one(tmp_path), "--model", "sinh", "--seed", "1"]
     done(run([*arguments, *limited, "--out", tmp_path / "out"], clock))
     content = json.loads((tmp_path / "out" / "identification.json").read_text(encoding="utf-8"))
     assert content["runs"][0]["reason"] == "time_limit"
@@ -152,7 +152,7 @@ def test_progress_under_a_clock_that_jumps(clock: dict[str, str], tmp_path: Path
 
 def test_a_trial(clock: dict[str, str], tmp_path: Path) -> None:
     trial = tmp_path / "trial"
-    make = ["trial", "make", trial, "--cases", "2", "--seed", "1"]
+    make: list[str | Path] = ["trial", "make", trial, "--cases", "2", "--seed", "1"]
     assert run(make, clock).returncode == 0
     assert run(["trial", "run", trial, "--workers", "2"], clock).returncode == 0
     assert run(["trial", "open", trial], clock).returncode == 0

@@ -30,7 +30,7 @@ def main(minutes: float, seed: int) -> int:
         print(f"| 0 | 0 | {told[0]} |", flush=True)
         began, rounds = time.monotonic(), 0
         for tenth in range(1, TENTHS + 1):
-            seen = []
+            seen: list[Health] = []
             while not seen or time.monotonic() - began < tenth / TENTHS * 60 * minutes:
                 work()
                 rounds += 1

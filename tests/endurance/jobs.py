@@ -4,6 +4,7 @@ import json
 import random
 import shutil
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, Final
 
@@ -27,7 +28,7 @@ def identify(draw: random.Random, folder: Path) -> None:
     """With any model and optimiser, through a file."""
     path = write_csv(folder / "one.csv", some_recording(draw))
     optimizer: Any = draw.choice(OPTIMIZERS)
-    few = {} if optimizer == "exact" else {"max_iterations": 4}
+    few: dict[str, Any] = {} if optimizer == "exact" else {"max_iterations": 4}
     found = mre_core.identify(
         mre_core.load(path), draw.choice(list(DEVICES)), optimizer=optimizer, seed=1, **few
     )
@@ -55,12 +56,12 @@ def batch(draw: random.Random, folder: Path) -> None:
 
 def refuse(draw: random.Random, folder: Path) -> None:
     """What cannot be done leaves nothing behind either."""
-    missing, short = folder / "none.csv", [0.0]
-    for wrong in (lambda: mre_core.load(missing), lambda: mre_core.Recording(short, short, None)):
-        try:
-            wrong()
-        except mre_core.MreError:
-            continue
+    short = [0.0]
+    with suppress(mre_core.MreError):
+        mre_core.load(folder / "none.csv")
+        raise AssertionError("taken")
+    with suppress(mre_core.MreError):
+        mre_core.Recording(short, short, None)
         raise AssertionError("taken")
 
 

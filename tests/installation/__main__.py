@@ -1,4 +1,4 @@
-"""Install a wheel for every Python found, and use it: ``python -m installation dist/*.whl``; prints a table."""
+"""Install a wheel for every Python found, and use it: ``python -m installation WHEEL``; prints a table."""
 
 import os
 import shutil
