@@ -155,3 +155,14 @@ def test_a_pickle_is_no_recording(tmp_path: Path, cli: Cli, ending: str) -> None
     status, _, err = cli("loops", tmp_path / f"a.{ending}", "--out", tmp_path / "out")
     assert (status, err.count("\n")) == (2, 1)
     assert not touched.exists()
+
+
+@pytest.mark.parametrize("place", range(46))
+def test_a_damaged_entry_of_a_workbook(tmp_path: Path, place: int) -> None:
+    # Every byte of the first entry of the list at the end: versions, flags, lengths.
+    path = workbook(tmp_path / "a.xlsx", SHEET + END)
+    content = path.read_bytes()
+    entry = content.index(b"PK\x01\x02") + place
+    for value in (0, 64, 255):
+        path.write_bytes(content[:entry] + bytes([value]) + content[entry + 1 :])
+        refused(path)
