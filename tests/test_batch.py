@@ -101,6 +101,7 @@ def test_campaigns_and_their_currents(tmp_path: Path) -> None:
     assert list(table["current"].isna()) == [True, False]
     shown = mre_core.plot_parameters(table.reset_index())
     assert [axis.get_title() for axis in shown.axes] == ["c0", "k0", "F0"]
+    assert [axis.get_ylabel() for axis in shown.axes] == ["N s/mm", "N/mm", "N"]
     points = np.asarray(shown.axes[0].lines[0].get_xydata())
     np.testing.assert_allclose(points, [[0.0, 1.0], [0.5, 1.5], [0.5, 1.5]], atol=0.01)
     with pytest.raises(InputError, match="'c9' is no parameter of the results, wanted c0, k0, F0"):
@@ -426,7 +427,8 @@ def test_refused(cli: Cli, five: Path, tmp_path: Path) -> None:
     )
     assert "both a model and a base are given" in refused(*sinh, "--base", "sinh")
     assert "the model is 'sin'" in refused(*good, "--model", "sin")
-    assert "a folder without recordings, wanted" in refused("batch", tmp_path, "--model", "sinh", *new)
+    nothing = refused("batch", tmp_path, "--model", "sinh", *new)
+    assert f"a folder without recordings ({out.name}: results of mre-core batch), wanted" in nothing
     assert "nowhere: cannot be read: No such file" in refused("batch", tmp_path / "nowhere", *sinh[2:], *new)
     assert "--seeds 3:1" in refused(*sinh, *new, "--seeds", "3:1")
     assert "both a seed and seeds" in refused(*sinh, *new, "--seeds", "1:3", "--seed", "1")

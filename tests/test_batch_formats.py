@@ -1,5 +1,6 @@
 """Items of a batch are files of every format that `load` reads."""
 
+import json
 from pathlib import Path
 from typing import Any
 
@@ -7,11 +8,12 @@ import mre_core
 import numpy as np
 import pandas as pd
 import pytest
-from mre_core import Recording
+from mre_core import Recording, SkippedWarning
 from rig import SINH, Cli, force_of, made_of, motion, record
 from scipy.io import savemat  # type: ignore[import-untyped]
 
-FAST: dict[str, Any] = {"model": "sinh", "optimizer": "exact", "seed": 1}
+FAST_ALONE: dict[str, Any] = {"model": "sinh", "optimizer": "exact"}
+FAST = FAST_ALONE | {"seed": 1}
 COLUMNS = ("time_s", "displacement_mm", "force_N")
 
 
@@ -68,6 +70,10 @@ def test_options_of_reading_hold_for_all(cli: Cli, tmp_path: Path) -> None:
     assert cli("batch", place, *options, *columns, "--out", tmp_path / "out") == (0, "", "")
     table = mre_core.read_results(tmp_path / "out")
     assert list(table["status"]) == ["done", "done"]
+    status, shown, _ = cli("batch", place, *options[:-1], *columns, "--json", "--out", tmp_path / "out")
+    rows = json.loads(shown)
+    assert (status, [row["item"] for row in rows]) == (0, ["a.parquet", "b.txt"])
+    assert [row["c0"] for row in rows] == pytest.approx(list(table["c0"]), rel=1e-9)
 
 
 def test_a_file_of_several_recordings_is_a_campaign(tmp_path: Path) -> None:
@@ -80,17 +86,71 @@ def test_a_file_of_several_recordings_is_a_campaign(tmp_path: Path) -> None:
     assert (row["status"], row["recordings"]) == ("done", 2)
 
 
-def test_notes_are_passed_over_in_a_campaign_and_no_item_else(folder: Path, tmp_path: Path) -> None:
-    for file in (folder / "mixed" / "a notes.txt", folder / "notes.txt"):
-        file.write_text(f"What we saw that day in {file.parent.name}.\n", encoding="utf-8")
-    table = mre_core.batch(folder, tmp_path / "out", **FAST).set_index("item")
-    assert table.index[table["status"] == "failed"].tolist() == ["notes.txt"]
-    assert table.at["mixed", "recordings"] == 2
-    assert "passed over: mixed/a notes.txt" in str(table.at["mixed", "warnings"])
+def test_notes_are_no_item_and_said(folder: Path, tmp_path: Path) -> None:
+    (folder / "papers").mkdir()
+    for place in (folder, folder / "mixed", folder / "papers"):
+        text = f"What we saw that day in {place.name}:\nit was loud, 3 A and more,\nthen it stopped.\n"
+        (place / "a notes.txt").write_text(text, encoding="utf-8")
+    # A recording that holds no data is none to pass over.
+    (folder / "empty.txt").write_text("time_s,displacement_mm,force_N\n", encoding="utf-8")
+    seen: list[tuple[int, int, int]] = []
+    for _ in range(2):  # the second time they are known
+        with pytest.warns(SkippedWarning) as said:
+            found = mre_core.batch(
+                folder,
+                tmp_path / "out",
+                seeds=[1, 2],
+                on_progress=lambda *now: seen.append(now),
+                **FAST_ALONE,
+            )
+        assert sorted(str(w.message) for w in said) == [
+            f"passed over: {name}: no rows of numbers, wanted a header such as"
+            " time_s,displacement_mm,force_N and data"
+            for name in ("a notes.txt", "papers/a notes.txt")
+        ]
+        assert seen[-1] == (10, 2, 12)
+        table = found[found["seed"] == 1].set_index("item")
+        assert list(table.index) == ["a.txt", "b.xlsx", "c.mat", "d.parquet", "empty.txt", "mixed"]
+        assert table.index[table["status"] == "failed"].tolist() == ["empty.txt"]
+        assert "a header but no data" in str(table.at["empty.txt", "error"])
+        assert table.at["mixed", "recordings"] == 2
+        assert "passed over: mixed/a notes.txt" in str(table.at["mixed", "warnings"])
 
 
-def test_results_of_another_batch_are_no_item(folder: Path) -> None:
+def test_a_folder_of_notes_is_refused(cli: Cli, tmp_path: Path) -> None:
+    (tmp_path / "in").mkdir()
+    (tmp_path / "in" / "notes.txt").write_text("It was loud.\n", encoding="utf-8")
+    status, _, err = cli("batch", tmp_path / "in", "--model", "sinh", "--out", tmp_path / "out", "--quiet")
+    said = f"{tmp_path / 'in'}: no recording, but notes (notes.txt), wanted at least one recording"
+    assert (status, err) == (2, f"mre-core: {said}\n")
+
+
+def test_results_are_no_item_and_said(cli: Cli, folder: Path) -> None:
     mre_core.batch(folder, folder / "first", **FAST)
-    table = mre_core.batch(folder, folder / "second", **FAST)
+    fast = ["--optimizer", "exact", "--no-figures", "--quiet"]
+    assert cli("identify", folder / "a.txt", "--model", "sinh", "--out", folder / "fitted", *fast)[0] == 0
+    model = folder / "fitted" / "model.json"
+    diagnosed = folder / "mixed" / "diagnosed"
+    arguments: list[str | Path] = [
+        "diagnose",
+        folder / "a.txt",
+        "--base",
+        "kelvin_voigt",
+        "--quiet",
+        "--out",
+        diagnosed,
+    ]
+    assert cli(*arguments, "--seed", "1")[0] == 0
+    predicted = folder / "mixed" / "predicted.csv"
+    assert cli("simulate", model, folder / "a.txt", "--out", predicted)[0] == 0
+    with pytest.warns(SkippedWarning) as said:
+        table = mre_core.batch(folder, folder / "second", **FAST)
+    assert sorted(str(w.message) for w in said) == [
+        "passed over: first: results of mre-core batch",
+        "passed over: fitted: results of mre-core identify",
+        "passed over: mixed/diagnosed: results of mre-core diagnose",
+        "passed over: mixed/predicted.csv: results of mre-core simulate or next-test",
+    ]
     assert set(table["status"]) == {"done"}
     np.testing.assert_array_equal(table["item"], ["a.txt", "b.xlsx", "c.mat", "d.parquet", "mixed"])
+    assert list(table["recordings"]) == [1, 1, 1, 1, 2]

@@ -129,6 +129,21 @@ def test_map_and_set(cli: Cli, tmp_path: Path, sinh_4mm: Recording, repeated: bo
     assert found["runs"][0]["history"]["best"][0] == pytest.approx(expected, rel=1e-9)
 
 
+def test_currents_in_file_names_are_pointed_out(cli: Cli, tmp_path: Path, sinh_4mm: Recording) -> None:
+    for current in ("0", "2"):
+        write_csv(tmp_path / f"4mm{current}A.csv", sinh_4mm)
+    arguments: list[str | Path] = ["identify", tmp_path, "--model", "kelvin_voigt", "--no-figures", "--quiet"]
+    status, _, err = cli(*arguments, "--out", tmp_path / "a")
+    said = (
+        "mre-core: warning: the file names state currents, which are not used: recordings count as at one"
+        " current, unless --name-pattern '{amplitude}mm{current}A' is given\n"
+    )
+    assert (status, err) == (0, said)
+    assert cli(*arguments, "--set", "current=1[A]", "--out", tmp_path / "b")[::2] == (0, "")
+    (tmp_path / "4mm2A.csv").unlink()
+    assert cli(*arguments, "--out", tmp_path / "c")[::2] == (0, "")
+
+
 def test_unit_that_is_assumed_is_said_in_one_line(cli: Cli, tmp_path: Path, sinh_4mm: Recording) -> None:
     path = write_csv(tmp_path / "m.csv", sinh_4mm, "time,displacement,force")
     status, _, err = cli("identify", path, *SMALL)

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import catalogue
 import click
+import mre_core
 import numpy as np
 import pytest
 from mre_core import _core
@@ -19,8 +20,8 @@ PARTS = [DOCS / "proof", DOCS / "real" / "table.md"]
 PAGES = sorted(page for page in DOCS.rglob("*.md") if not any(page.is_relative_to(part) for part in PARTS))
 TESTED_APART = {DOCS / "how-to" / "files.md"}
 """By tests/test_how_to_files.py, which makes the files that its blocks read."""
-OTHERS_OPTIONS = {"--nthreads", "--cases", "--modle"}
-"""Of dask's workers, of a script in `benches`, and one that is none."""
+OTHERS_OPTIONS = {"--help", "--nthreads", "--cases", "--modle"}
+"""Of every command, of dask's workers, of a script in `benches`, and one that is none."""
 BLOCK = re.compile(r"```(python|console)\n(.*?)```", flags=re.DOTALL)
 
 
@@ -68,6 +69,12 @@ def test_commands_and_options_exist(page: Path) -> None:
     text = text_of(page)
     assert set(re.findall(r"mre-core +([a-z][\w-]+)", text)) <= set(commands.commands)
     assert set(re.findall(r"(?<![\w-])(--[a-z][a-z-]+)", text)) <= options_of(commands) | OTHERS_OPTIONS
+
+
+def test_the_reference_has_everything_public() -> None:
+    listed = re.findall(r"^::: mre_core\.\S*?(\w+)$", text_of(DOCS / "api.md"), flags=re.MULTILINE)
+    assert len(set(listed)) == len(listed)
+    assert set(mre_core.__all__) - {"__version__"} <= set(listed)
 
 
 @pytest.mark.parametrize("page", PAGES, ids=name_of)

@@ -13,6 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from mre_core import Dependence, ExtrapolationWarning, InputError, Law, Level, Model, Recording
 from mre_core.current_laws.factors import Samples, SinhFactor
+from mre_core.current_laws.plots import plot_laws
 from mre_core.current_laws.structure import Structure
 from rig import BOUC_WEN, Cli, force_of, made_of, motion, record, run_script, write_csv
 from scipy.optimize import lsq_linear, minimize_scalar  # type: ignore[import-untyped]
@@ -140,6 +141,41 @@ def test_laws_are_chosen_and_recovered() -> None:
         assert error == pytest.approx(found.by_level[current], rel=0.05)
     assert found.left_out.error == pytest.approx(min(trial.error for trial in found.trials), rel=0.02)
     assert found.rms == pytest.approx(0.2, rel=0.05)
+
+
+@pytest.mark.parametrize("currents", [(0.0, 1.0, 2.0), (0.0, 1.0, 3.0), (0.0, 1.5, 3.0)])
+def test_three_currents_tell_what_changes(currents: tuple[float, ...]) -> None:
+    """The middle of evenly spaced currents says nothing of a linear law: the mean of the ends predicts it."""
+    found = mre_core.fit_laws(campaign(currents), "sinh")
+    kinds = {name: p.law.kind for name, p in found.model.laws.items()}
+    assert {name for name, kind in kinds.items() if kind != "constant"} == {"c0", "k0", "alpha"}
+    assert found.rms == pytest.approx(0.2, rel=0.05)
+    for current in currents:
+        for name, law in TRUTH.items():
+            assert found.model.laws[name].at(current)[0] == pytest.approx(law(current), rel=0.08, abs=0.03)
+
+
+def test_a_change_that_moves_the_force_little_is_seen_where_the_noise_is_little() -> None:
+    """The offset follows the current by 1 % of the force; the noise is a tenth of that."""
+    recordings = []
+    for n, current in enumerate((0.0, 1.0, 2.0)):
+        parameters = {"c0": 0.3 + 0.3 * current, "k0": 5 + 5 * current, "F0": 0.2 * current}
+        moved = motion(4.0, rate=64, current=current)
+        recordings.append(record(made_of("kelvin_voigt", parameters), moved, noise=0.02, seed=n))
+    found = mre_core.fit_laws(recordings, "kelvin_voigt")
+    assert {name: p.law.kind for name, p in found.model.laws.items()} == dict.fromkeys(
+        ("c0", "k0", "F0"), "linear"
+    )
+
+
+def test_laws_of_noise_are_constant() -> None:
+    recordings = []
+    for n, current in enumerate((0.0, 1.0, 2.0, 3.0)):
+        moved = motion(4.0, rate=64, current=current)
+        device = made_of("kelvin_voigt", {"c0": 0.3, "k0": 5.0, "F0": 0.5})
+        recordings.append(record(device, moved, noise=3.0, seed=n))
+    found = mre_core.fit_laws(recordings, "kelvin_voigt")
+    assert {p.law.kind for p in found.model.laws.values()} == {"constant"}
 
 
 @pytest.mark.parametrize("model", ["sinh", "bouc_wen"])
@@ -291,6 +327,22 @@ def test_spoiled_files(tmp_path: Path, spoil: Callable[[dict[str, Any]], None], 
     assert problem in str(caught.value) or problem == "not a model"
 
 
+def test_figure_shows_intervals_at_the_levels() -> None:
+    model = mre_core.fit_laws(campaign((0.0, 1.0, 3.0)), "sinh", {"c0": "linear"}, ["beta", "F0"]).model
+    axis = plot_laws(model).axes[0]
+    assert (axis.get_title(), axis.get_ylabel()) == ("c0: linear", "N s/mm")
+    drawn = [line.get_xydata().tolist() for line in axis.lines[2:]]  # type: ignore[union-attr]
+    ends = [(level.current, level.intervals["c0"]) for level in model.levels]
+    assert drawn == [[[at, low], [at, high]] for at, (low, high) in ends]
+
+
+def test_no_force_at_all() -> None:
+    still = [motion(rate=64, current=current) for current in (0.0, 1.0, 2.0)]
+    recordings = [record(made_of("kelvin_voigt", {"c0": 0.0, "k0": 0.0, "F0": 0.0}), m) for m in still]
+    found = mre_core.fit_laws(recordings, "kelvin_voigt")
+    assert (found.rms, found.relative_rms, set(found.by_level.values())) == (0.0, 0.0, {0.0})
+
+
 def test_refused() -> None:
     recordings = campaign((0.0, 1.0))
     for problem, arguments in {
@@ -371,6 +423,9 @@ def test_command(cli: Cli, tmp_path: Path) -> None:
         r = mre_core.load(tmp_path / f"{fit['recording']}.csv", name_pattern="{amplitude}mm{current}A")
         error = force_of(r) - mre_core.simulate(model, r)
         assert fit["rms"] == pytest.approx(float(np.sqrt(np.mean(error**2))), rel=1e-6)
+    status, shown, err = cli(*arguments, "--config", config, "--predict", "0.5", "--json")
+    assert (status, err) == (0, "")
+    assert json.loads(shown) == content
     for wrong, problem in {
         "--law c0": "--law c0, wanted --law NAME=LAW",
         "--predict 7": "no recording at 7, wanted the current of some",

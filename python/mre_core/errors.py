@@ -75,24 +75,7 @@ class InputError(MreError):
 
 
 def one_line(text: str) -> str:
-    """Join the lines of a text and drop what a terminal would not print.
-
-    Parameters
-    ----------
-    text : str
-        Any text.
-
-    Returns
-    -------
-    str
-        The text in one line.
-    """
-    joined = " ".join(text.splitlines())
-    return "".join(char if char.isprintable() else "?" for char in joined)
-
-
-def visible(text: str) -> str:
-    """Replace what a terminal would obey instead of showing: control characters, turned directions.
+    """Join the lines of a text, and replace what a terminal would obey instead of showing.
 
     Parameters
     ----------
@@ -102,9 +85,10 @@ def visible(text: str) -> str:
     Returns
     -------
     str
-        The text with a question mark for each of these.
+        The text in one line, with a question mark for every control character and turned direction.
     """
-    return "".join("?" if category(char) in _UNSEEN else char for char in text)
+    joined = " ".join(text.splitlines())
+    return "".join("?" if category(char) in _UNSEEN else char for char in joined)
 
 
 def shown(value: object) -> str:

@@ -8,7 +8,7 @@ from typing import Any
 
 from ._core import Recording
 from .conditions import conditions_in_name, read_conditions
-from .errors import InputError, SkippedWarning, listed, visible
+from .errors import InputError, SkippedWarning, listed, one_line
 from .files import ReadOptions, Table, find_files, open_tables
 from .files.blocks import joined
 from .files.table import EvenTable, NoTableError
@@ -145,7 +145,7 @@ def _load_file(
     found = []
     for table, columns, fixed in usable:
         name = path.stem if len(usable) == 1 or not table.name else f"{path.stem}#{table.name}"
-        found.append(recording_of(table, columns, fixed, visible(name), stacklevel=3))
+        found.append(recording_of(table, columns, fixed, one_line(name), stacklevel=3))
     return found
 
 

@@ -66,7 +66,7 @@ CAMPAIGNS = {
     "laws: no such parameter is shared": Command([*LAWS, "--shared", "x"], ["'x'", "alpha"]),
     "laws: over something else": Command([*LAWS, "--over", "x"], ["'x'", "temperature"]),
     "laws: a level that is a word": Command([*LAWS, "--predict", "a"], ["--predict", "'a'"]),
-    "laws: no current": Command(LAWS, ["recording 'a' has no current", "current=VALUE[A]"]),
+    "laws: no current": Command(LAWS, ["recording 'a' has no current", "current=VALUE[A]", "{current}"]),
     "next-test: no folder": Command(
         ["next-test", "d", "--out", "c.csv"], ["diagnosis.json", "cannot be read"]
     ),

@@ -17,10 +17,10 @@ GOOD = [f"{0.01 * i!r},{i % 5},{100.0 - i}" for i in range(N)]
 BAD: dict[str, tuple[bytes | list[str], dict[str, object], list[str]]] = {
     "empty": (b"", {}, ["the file is empty", "wanted a header"]),
     "blank": (b"\n \n\n", {}, ["the file is empty"]),
-    "comments only": (["# a", "# b"], {}, ["no header and no data"]),
+    "comments only": (["# a", "# b"], {}, ["no rows of numbers", "wanted a header"]),
     "header only": (["# a", HEADER, ""], {}, ["line 2: a header but no data", "wanted rows of numbers"]),
     "binary": (b"\x89PNG\0\0\1\2", {}, ["is not a text file", "the ending of its format"]),
-    "utf-16": ("time_s".encode("utf-16"), {}, ["line 1: a header but no data"]),
+    "utf-16": ("time_s".encode("utf-16"), {}, ["no rows of numbers"]),
     "bytes that are no UTF-8": (
         b"\xef\xbb\xbf# a\nT [\xb0C]\n",
         {},

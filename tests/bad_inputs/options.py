@@ -6,7 +6,7 @@ from .made import IDENTIFY, Command, instead, option
 
 OPTIONS = {
     "no recording": Command(["identify", "--model", "sinh", "--out", "new/out"], ["RECORDINGS"]),
-    "no model": Command(["identify", "a.csv", "--out", "new/out"], ["--model"]),
+    "no model": Command(["identify", "a.csv", "--out", "new/out"], ["--model", "bouc_wen", "--help"]),
     "unknown model": option("'cinh'", "sinh", "bouc_wen", given=["--model", "cinh"]),
     "unknown option": option("--modle", given=["--modle", "sinh"]),
     "unknown command": Command(["identfy", "a.csv"], ["identfy"]),

@@ -14,6 +14,7 @@ RESULTS = "results.parquet"
 _FIRST = ("item", "seed", "status", "error", "job", "model", "verdict", "effects", "p_base")
 _CONDITIONS = ("recordings", "samples", "current", "temperature", "amplitude", "velocity")
 _LAST = ("warnings", "digest", "settings", "version")
+_ALWAYS = ("item", "seed", "status", "settings")
 _WHOLE = ("seed", "recordings", "samples", "evaluations")
 
 
@@ -21,7 +22,7 @@ def to_table(rows: Sequence[Mapping[str, Any]]) -> "pd.DataFrame":
     """Rows as a table; what an item has no value for is missing."""
     import pandas as pd
 
-    names = dict.fromkeys(name for row in rows for name in row)
+    names = dict.fromkeys((*_ALWAYS, *(name for row in rows for name in row)))
     times = [name for name in names if name.endswith("_time")]
     middle = [name for name in names if name not in {*_FIRST, *_CONDITIONS, *_LAST, *times}]
     order = [name for name in (*_FIRST, *_CONDITIONS, *middle, *_LAST, *times) if name in names]
@@ -76,6 +77,6 @@ def read_results(path: str | os.PathLike[str]) -> "pd.DataFrame":
         ) from None
     except ValueError:
         raise InputError("is no Parquet file", file=str(file), wanted="the results of a batch") from None
-    if missing := [name for name in ("item", "seed", "status", "settings") if name not in found]:
+    if missing := [name for name in _ALWAYS if name not in found]:
         raise InputError(f"no column {missing[0]}", file=str(file), wanted="the results of a batch")
     return found

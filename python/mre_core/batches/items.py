@@ -2,13 +2,25 @@
 
 import hashlib
 import os
+import warnings
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from ..errors import InputError
+from ..errors import InputError, SkippedWarning, listed
 from ..files.limits import is_text
 from ..files.readers import READERS
 from .journal import JOURNAL
+
+_RESULTS = {
+    "identification.json": "identify",
+    "diagnosis.json": "diagnose",
+    "laws.json": "laws",
+    "loops.json": "loops",
+    "study.json": "study",
+    JOURNAL: "batch",
+}
+"""Files that show which command wrote the folder that they are in."""
 
 
 @dataclass(frozen=True)
@@ -32,7 +44,7 @@ def find_items(folder: str | os.PathLike[str], leave_out: Path | None = None) ->
     Parameters
     ----------
     folder : path
-        Where to look. What begins with a dot is passed over, and so are the results of other batches.
+        Where to look. What begins with a dot is passed over.
     leave_out : Path, optional
         A sub-folder that is no campaign: that of the results.
 
@@ -45,6 +57,11 @@ def find_items(folder: str | os.PathLike[str], leave_out: Path | None = None) ->
     ------
     InputError
         The folder cannot be read or has no such file.
+
+    Warns
+    -----
+    SkippedWarning
+        Of results of this program, which are no recordings.
     """
     root = Path(folder)
     try:
@@ -52,18 +69,24 @@ def find_items(folder: str | os.PathLike[str], leave_out: Path | None = None) ->
     except OSError as error:
         problem = f"cannot be read: {error.strerror}"
         raise InputError(problem, file=str(root), wanted="a folder with recordings") from None
-    items = []
+    items: list[Item] = []
+    results: dict[Path, str] = {}
     for entry in entries:
         if leave_out is not None and entry.resolve() == leave_out.resolve():
             continue
-        if entry.is_dir():
-            if not (entry / JOURNAL).exists():
-                items.append(_item(entry.name, tuple(sorted(f for f in entry.rglob("*") if _is_known(f)))))
+        if command := _written_by(entry):
+            results[entry] = command
+        elif entry.is_dir():
+            items.append(_item(entry.name, tuple(sorted(_recordings(entry, results)))))
         elif _is_known(entry):
             items.append(_item(entry.name, (entry,)))
+    said = [f"{path.relative_to(root).as_posix()}: results of mre-core {c}" for path, c in results.items()]
     if not any(item.files for item in items):
         wanted = f"files that end in {', '.join(READERS)}, or sub-folders with such"
-        raise InputError("a folder without recordings", file=str(root), wanted=wanted)
+        others = f" ({listed(said)})" if said else ""
+        raise InputError(f"a folder without recordings{others}", file=str(root), wanted=wanted)
+    for text in said:
+        warnings.warn(f"passed over: {text}", SkippedWarning, stacklevel=3)
     return _without_duplicates(items)
 
 
@@ -76,6 +99,31 @@ def digest_of(path: Path) -> str:
 def digest_of_all(digests: list[str]) -> str:
     """SHA-256 of several files' digests, in their order."""
     return hashlib.sha256("".join(digests).encode()).hexdigest()
+
+
+def _recordings(folder: Path, results: dict[Path, str]) -> Iterator[Path]:
+    """List the recordings in a folder and those below; results of this program are added to `results`."""
+    try:
+        entries = sorted(folder.iterdir())
+    except OSError:  # what cannot be read holds no recording for us
+        return
+    for entry in entries:
+        if entry.name.startswith("."):
+            continue
+        if command := _written_by(entry):
+            results[entry] = command
+        elif entry.is_dir() and not entry.is_symlink():
+            yield from _recordings(entry, results)
+        elif _is_known(entry):
+            yield entry
+
+
+def _written_by(entry: Path) -> str | None:
+    """Name the command that wrote a folder or a file; None where none did."""
+    if entry.is_dir():
+        return next((name for file, name in _RESULTS.items() if (entry / file).is_file()), None)
+    settings = f"{entry.with_suffix('')}.settings.toml"  # which may be too long for a name
+    return "simulate or next-test" if _is_known(entry) and os.path.isfile(settings) else None
 
 
 def _is_known(path: Path) -> bool:

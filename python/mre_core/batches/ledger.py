@@ -3,7 +3,7 @@
 import hashlib
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -32,36 +32,49 @@ class Ledger:
         self._journal = journal
         self.left: list[Task] = []
         """What is to do."""
-        self._failed = 0
+        self.passed_over: dict[str, str] = {}
+        """Items that are notes and no recordings, with the reason; they do not count."""
+        self._failed = self._notes = 0
         found = journal.read()
         for name, seed in self._pairs:
             item, entry = self._items[name], found.get((name, seed))
             if item.problem:
                 self._failed += 1
             elif entry is not None and entry.lasting and entry.digest == item.digest:
-                self._failed += "error" in entry.row
+                self._count(name, entry.row)
             else:
                 files = tuple(str(file.resolve()) for file in item.files)
                 self.left.append(Task(name, files, item.digest, seed, settings, threads))
 
     def keeper(self, on_progress: OnProgress | None) -> Callable[[list[Outcome]], None]:
         """Make a function that keeps outcomes and tells how far the batch is."""
-        failed, ended = self._failed, len(self._pairs) - len(self.left)
+        ended = len(self._pairs) - len(self.left)
 
         def keep(outcomes: list[Outcome]) -> None:
-            nonlocal failed, ended
-            self._journal.write([self._entry(outcome) for outcome in outcomes])
-            ended += len(outcomes)
-            failed += sum(bool(outcome.error) for outcome in outcomes)
+            nonlocal ended
+            entries = [self._entry(outcome) for outcome in outcomes]
+            self._journal.write(entries)
+            ended += len(entries)
+            for entry in entries:
+                self._count(entry.item, entry.row)
             if on_progress is not None:
-                on_progress(ended - failed, failed, len(self._pairs))
+                everything = len(self._pairs) - self._notes
+                on_progress(ended - self._notes - self._failed, self._failed, everything)
 
         keep([])
         return keep
 
+    def _count(self, name: str, row: Mapping[str, Any]) -> None:
+        if row.get("notes"):
+            self.passed_over[name] = str(row["error"])
+            self._notes += 1
+        elif "error" in row:
+            self._failed += 1
+
     def _entry(self, outcome: Outcome) -> Entry:
         row = {key: _plain(value) for key, value in outcome.row.items()}
         row |= {"error": outcome.error} if outcome.error else {}
+        row |= {"notes": True} if outcome.notes else {}
         row |= {"fit_time": outcome.seconds, "finished_time": time.time()}
         digest = self._items[outcome.item].digest
         return Entry(outcome.item, outcome.seed, digest, outcome.lasting, row, outcome.model)
@@ -71,6 +84,8 @@ class Ledger:
         found = self._journal.read()
         rows, models = [], {}
         for name, seed in self._pairs:
+            if name in self.passed_over:
+                continue
             item, entry = self._items[name], found.get((name, seed))
             row: dict[str, Any] = {"error": item.problem} if item.problem else {}
             if not item.problem:

@@ -4,6 +4,7 @@ import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from .. import _core
 from ..errors import InputError
 
 if TYPE_CHECKING:
@@ -91,6 +92,7 @@ def plot_parameters(
     table = table[table[against].notna()]
     if table.empty:
         raise InputError(f"no item has a {against}", wanted=f"items with a {against}")
+    units = _units(results)
     columns = min(3, len(names))
     rows = -(-len(names) // columns)
     figure = Figure(figsize=(3.4 * columns, 2.6 * rows), layout="constrained")
@@ -102,8 +104,19 @@ def plot_parameters(
         axis.errorbar(x[sure], y[sure], yerr=ends, fmt="o", markersize=3, color="black", linewidth=0.8)
         axis.plot(x[~sure], y[~sure], "o", markersize=3, color="0.5", fillstyle="none")
         axis.set_title(name, fontsize="medium")
+        axis.set_ylabel(units.get(name, ""))
         axis.tick_params(axis="x", rotation=30 if against == "time" else 0)
         axis.set_xlabel(AGAINST[against])
     for axis in figure.axes[len(names) :]:
         axis.remove()
     return figure
+
+
+def _units(results: "pd.DataFrame") -> dict[str, str]:
+    """Units of the parameters of the models in the results, and of all effects."""
+    names = set(results["model"]) & set(_core.models()) if "model" in results else set()
+    found = dict(pair for name in sorted(names) for pair in _core.parameters(name))
+    for effect in _core.catalogue():
+        coefficients, shapes, _ = _core.effect_parameters(effect["id"], effect["law"])
+        found |= {f"{effect['id']}.{name}": unit for name, unit in (*coefficients, *shapes)}
+    return found

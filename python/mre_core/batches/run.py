@@ -2,6 +2,7 @@
 
 import math
 import os
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from importlib import import_module
@@ -9,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .._core import __version__
-from ..errors import InputError
+from ..errors import InputError, SkippedWarning, listed
 from ..minimise import draw_seed
 from .columns import read_results
 
@@ -95,6 +96,11 @@ def batch(
     MreError
         A setting cannot be used, `out` is in use, holds another batch or cannot be written, the scheduler
         cannot be reached, or the workers are gone.
+
+    Warns
+    -----
+    SkippedWarning
+        A text holds notes and no recording, or a sub-folder results of this program: neither is an item.
     """
     from .drive import drive  # here: what a batch needs, importing the package does not
     from .engine import chosen_engine
@@ -119,7 +125,13 @@ def batch(
             drive(run.left, engine, budget, run.keeper(on_progress))
         finally:
             run.write(Path(out))
-    return read_results(out)
+    results = read_results(out)
+    if run.passed_over and results.empty:
+        found = f"no recording, but notes ({listed(list(run.passed_over))})"
+        raise InputError(found, file=str(folder), wanted="at least one recording")
+    for problem in run.passed_over.values():
+        warnings.warn(f"passed over: {problem}", SkippedWarning, stacklevel=2)
+    return results
 
 
 def _check(

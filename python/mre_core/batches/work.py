@@ -11,6 +11,7 @@ from typing import Any
 
 from .._core import Recording, __version__
 from ..errors import InputError, MreError, one_line
+from ..files.table import NotesError
 from .items import digest_of, digest_of_all
 from .rows import row_of_diagnosis, row_of_identification
 from .settings import Settings
@@ -42,6 +43,8 @@ class Outcome:
     """Content of a model file."""
     error: str = ""
     """Why it failed; empty where it did not."""
+    notes: bool = False
+    """Whether it failed because its files are notes and no recordings."""
     lasting: bool = True
     """False where another attempt may end otherwise: out of time, memory or disk."""
     seconds: float = 0.0
@@ -54,7 +57,7 @@ def work(task: Task) -> Outcome:
         return Outcome(task.item, task.seed, error=other, lasting=False)
     begin = time.perf_counter()
     row: dict[str, Any] = {}
-    model, error, lasting = None, "", True
+    model, error, notes, lasting = None, "", False, True
     try:
         with _files(task) as files, warnings.catch_warnings(record=True) as said:
             warnings.simplefilter("always")
@@ -62,6 +65,7 @@ def work(task: Task) -> Outcome:
                 row, model = _result(_loaded(files, task), task)
             except MreError as problem:
                 error = _without_folders(str(problem), files, task)
+                notes = isinstance(problem, NotesError)
                 lasting = not isinstance(problem.__context__, OSError)  # a disk may come back
         if not error:
             texts = [_without_folders(one_line(str(w.message)), files, task) for w in said]
@@ -72,7 +76,8 @@ def work(task: Task) -> Outcome:
         error = f"please report this with its input: {type(problem).__name__}: {problem}"
     seconds = time.perf_counter() - begin
     if error:
-        return Outcome(task.item, task.seed, error=one_line(error), lasting=lasting, seconds=seconds)
+        error = one_line(error)
+        return Outcome(task.item, task.seed, error=error, notes=notes, lasting=lasting, seconds=seconds)
     return Outcome(task.item, task.seed, row, model, seconds=seconds)
 
 

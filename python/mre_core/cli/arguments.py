@@ -1,35 +1,18 @@
-"""Options that several commands share, and how their texts are read."""
+"""How the texts of options are read."""
 
 import math
-from collections.abc import Callable, Collection, Iterable, Sequence
-from pathlib import Path
-from typing import Any, TypeVar
-
-import click
+import warnings
+from collections.abc import Collection, Iterable, Sequence
+from typing import Any
 
 from .._core import Recording
+from ..conditions import conditions_in_name
 from ..errors import InputError
 from ..files import ReadOptions
+from ..guesses import guess_pattern
 from ..load import load
 from ..load import load_all as load_campaign
 from ..units import ROLES
-from .settings import read_config
-
-F = TypeVar("F", bound=Callable[..., Any])
-
-
-class Whole(click.types.IntParamType):
-    """Whole numbers that the core can take; their ranges are checked there, and need no mention in help."""
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """Convert a text."""
-        number = super().convert(value, param, ctx)
-        if not -(2**63) <= number < 2**63:
-            self.fail(f"{value} has too many digits, wanted a whole number", param, ctx)
-        return number
-
-
-WHOLE = Whole()
 
 _PAIRS = ("--map", "--set", "--read")
 _FILES = ("--recordings",)
@@ -58,62 +41,6 @@ def spread(arguments: Sequence[str]) -> list[str]:
             option = ""
         out.append(argument)
     return out
-
-
-def config_option(command: F) -> F:
-    """Option of every command that has settings."""
-    return click.option(
-        "--config",
-        type=click.Path(path_type=Path),
-        is_eager=True,
-        expose_value=False,
-        callback=read_config,
-        metavar="F.toml",
-        help="Options from a TOML file; those given here win.",
-    )(command)
-
-
-def common_options(command: F) -> F:
-    """Options of every command that reads recordings."""
-    options = [
-        click.option(
-            "--map",
-            "mapping",
-            multiple=True,
-            metavar="ROLE=COLUMN[UNIT]",
-            help="Column of a role, and its unit.",
-        ),
-        click.option(
-            "--set",
-            "conditions",
-            multiple=True,
-            metavar="ROLE=VALUE[UNIT]",
-            help="Current or temperature of all recordings.",
-        ),
-        click.option(
-            "--name-pattern",
-            metavar="PATTERN",
-            help="Form of the file names, such as '{amplitude}mm{frequency}Hz{current}A'.",
-        ),
-        click.option(
-            "--read",
-            "reading",
-            multiple=True,
-            metavar="KEY=VALUE",
-            help=f"How to read the files: {', '.join(ReadOptions._fields)}.",
-        ),
-    ]
-    command = config_option(command)
-    for option in reversed(options):
-        command = option(command)
-    return command
-
-
-def report_options(command: F) -> F:
-    """Options of every command that shows results."""
-    quiet = click.option("--quiet", is_flag=True, help="No progress, no tables.")
-    as_json = click.option("--json", "as_json", is_flag=True, help="Results as JSON on standard output.")
-    return as_json(quiet(command))
 
 
 def pairs(option: str, texts: Iterable[str], keys: Collection[str] = ROLES) -> dict[str, str]:
@@ -154,15 +81,29 @@ def load_all(
     name_pattern: str | None,
     reading: Sequence[str] = (),
 ) -> list[Recording]:
-    """Load the recordings of a command."""
+    """Load the recordings of a command; currents in file names that nobody asked for are pointed out."""
     fixed: dict[str, Any] = pairs("--set", conditions)  # roles: checked there
-    return load_campaign(
+    found = load_campaign(
         paths,
         map=pairs("--map", mapping),
         name_pattern=name_pattern,
         read=pairs("--read", reading, ReadOptions._fields),
         **fixed,
     )
+    if name_pattern is None and all(recording.current is None for recording in found):
+        _point_out_currents([recording.name.partition("#")[0] for recording in found])
+    return found
+
+
+def _point_out_currents(names: Sequence[str]) -> None:
+    """Warn of recordings at several currents that would be fitted as if they were at one."""
+    pattern = guess_pattern(names)
+    if pattern is None:
+        return
+    currents = {conditions_in_name(name, pattern).get("current") for name in names}
+    if len(currents) > 1:
+        text = "the file names state currents, which are not used: recordings count as at one current, unless"
+        warnings.warn(f"{text} --name-pattern '{pattern}' is given", stacklevel=3)
 
 
 def read_bounds(texts: Iterable[str]) -> dict[str, tuple[float, float]]:

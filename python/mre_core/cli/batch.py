@@ -5,7 +5,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from .arguments import WHOLE, common_options, pairs, read_bounds, read_interval, read_parts, read_seeds
+from .arguments import pairs, read_bounds, read_interval, read_parts, read_seeds
+from .options import WHOLE, common_options, fit_options, report_options, trim_options
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -27,16 +28,14 @@ _SHOWN = 20
 @click.option("--seed", type=WHOLE, help="Same seed, same result.")
 @click.option("--seeds", metavar="FIRST:END", help="Work on every item with each of these seeds.")
 @click.option("--bootstrap", type=WHOLE, metavar="N", help="Intervals by N refits as well.")
-@click.option("--bounds", multiple=True, metavar="NAME=LOWER:UPPER", help="Bounds that replace default ones.")
-@click.option("--weights", metavar="samples|force", help="Count samples, or recordings by their force.")
+@fit_options
 @click.option("--fish", type=WHOLE, help="Fish or particles of a swarm.")
 @click.option("--iterations", type=WHOLE, help="Iterations of a swarm.")
 @click.option("--false-alarm", type=float, help="Of a diagnosis; 0.01 by default.")
 @click.option(
     "--fixed", is_flag=True, help="Of a diagnosis: keep the parameters of a model.json as they are."
 )
-@click.option("--cut", metavar="START:STOP", help="Keep this part of every recording, in s.")
-@click.option("--exclude", metavar="PARTS", help="start_transient, stop_transient or both, with a comma.")
+@trim_options
 @click.option("--budget", type=float, metavar="S", help="Seconds that one item may take.")
 @click.option("--workers", type=WHOLE, help="Processes on this machine; one a core by default.")
 @click.option("--threads", type=WHOLE, default=1, show_default=True, help="Threads of one item.")
@@ -44,7 +43,7 @@ _SHOWN = 20
     "--cluster", metavar="ADDRESS|local:N", help="A Dask scheduler, or N Dask workers on this machine."
 )
 @click.option("--no-figures", is_flag=True, help="Write no figures.")
-@click.option("--quiet", is_flag=True, help="No progress, no tables.")
+@report_options
 @common_options
 def batch(
     folder: Path,
@@ -57,6 +56,7 @@ def batch(
     iterations: int | None,
     fixed: bool,
     no_figures: bool,
+    as_json: bool,
     quiet: bool,
     mapping: tuple[str, ...],
     conditions: tuple[str, ...],
@@ -103,7 +103,9 @@ def batch(
         write_settings(stage, out)
         if not no_figures:
             _draw(stage, results)
-    if not quiet:
+    if as_json:
+        click.echo(results.to_json(orient="records", date_format="iso", indent=2))
+    elif not quiet:
         _print(results, out)
     return 0 if (results["status"] == "done").any() else 1
 

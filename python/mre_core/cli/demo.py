@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from .arguments import WHOLE, config_option
+from .options import WHOLE, config_option
 
 _MODELS = ("sinh", "bouc_wen")
 _OPTIMIZERS = ("mafsa", "afsa", "pso")

@@ -5,7 +5,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from .arguments import WHOLE, common_options, load_all, report_options, trimmed
+from .arguments import load_all, trimmed
+from .options import WHOLE, common_options, report_options, trim_options
 
 if TYPE_CHECKING:
     from ..diagnosis import Diagnosis, History
@@ -33,8 +34,7 @@ if TYPE_CHECKING:
     "--without", multiple=True, metavar="EFFECT", help="Rule an effect out; may be given several times."
 )
 @click.option("--seed", type=WHOLE, help="Same seed, same result.")
-@click.option("--cut", metavar="START:STOP", help="Keep this part of every recording, in s.")
-@click.option("--exclude", metavar="PARTS", help="start_transient, stop_transient or both, with a comma.")
+@trim_options
 @click.option(
     "--blank",
     type=WHOLE,

@@ -1,6 +1,6 @@
 """Text out of files, for a terminal."""
 
-from ..errors import visible
+from ..errors import one_line
 
 
 def escape(text: str) -> str:
@@ -18,4 +18,4 @@ def escape(text: str) -> str:
     """
     from rich.markup import escape as without_markup
 
-    return without_markup(visible(text))
+    return without_markup(one_line(text))

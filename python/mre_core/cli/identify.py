@@ -5,15 +5,8 @@ from typing import Any
 
 import click
 
-from .arguments import (
-    WHOLE,
-    common_options,
-    load_all,
-    read_bounds,
-    report_options,
-    trimmed,
-    unique_names,
-)
+from .arguments import load_all, read_bounds, trimmed, unique_names
+from .options import WHOLE, common_options, fit_options, report_options, trim_options
 
 
 @click.command()
@@ -30,10 +23,8 @@ from .arguments import (
 )
 @click.option("--out", type=click.Path(path_type=Path), metavar="DIR", help="Folder for the results.")
 @click.option("--seed", type=WHOLE, help="Same seed, same result.")
-@click.option("--bounds", multiple=True, metavar="NAME=LOWER:UPPER", help="Bounds that replace default ones.")
-@click.option("--weights", metavar="samples|force", help="Count samples, or recordings by their force.")
-@click.option("--cut", metavar="START:STOP", help="Keep this part of every recording, in s.")
-@click.option("--exclude", metavar="PARTS", help="start_transient, stop_transient or both, with a comma.")
+@fit_options
+@trim_options
 @click.option("--fish", type=WHOLE, help="Fish or particles of a swarm; 50 by default.")
 @click.option("--iterations", type=WHOLE, help="Iterations of a swarm; 300 by default.")
 @click.option("--max-evaluations", type=WHOLE, help="Budget of evaluations for each current.")

@@ -5,8 +5,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..errors import visible
-from .arguments import common_options, pairs, report_options
+from ..errors import one_line
+from .arguments import pairs
+from .options import common_options, report_options
 
 if TYPE_CHECKING:
     from ..inspection import Inspected, Inspection
@@ -77,7 +78,7 @@ def _print(found: "Inspection") -> None:
     if found.usable:
         _print_signals(out, found)
     for line in str(found).splitlines():
-        out.print(visible(line), markup=False, soft_wrap=True)
+        out.print(one_line(line), markup=False, soft_wrap=True)
 
 
 def _print_columns(out: Any, table: "Inspected") -> None:
@@ -86,7 +87,7 @@ def _print_columns(out: Any, table: "Inspected") -> None:
 
     from .escape import escape
 
-    out.print(visible(f"{table.name}: {'; '.join(table.notes)}"), markup=False, soft_wrap=True)
+    out.print(one_line(f"{table.name}: {'; '.join(table.notes)}"), markup=False, soft_wrap=True)
     by_header = {guess.header: guess for guess in table.guesses}
     columns = Table(box=SIMPLE_HEAD, pad_edge=False)
     for title in ("column", "role", "why"):

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..errors import InputError
-from .arguments import common_options, load_all, read_bounds, read_interval, read_parts
+from .arguments import load_all, read_bounds, read_interval, read_parts
+from .options import common_options, fit_options, report_options, trim_options
 
 if TYPE_CHECKING:
     from .._core import Recording
@@ -38,16 +39,9 @@ if TYPE_CHECKING:
     "--predict", type=float, metavar="LEVEL", help="Leave recordings at this level out; predict them."
 )
 @click.option("--out", type=click.Path(path_type=Path), metavar="DIR", help="Folder for the results.")
-@click.option("--bounds", multiple=True, metavar="NAME=LOWER:UPPER", help="Bounds that replace default ones.")
-@click.option(
-    "--weights",
-    default="samples",
-    metavar="samples|force",
-    help="Count samples, or recordings by their force.",
-)
-@click.option("--cut", metavar="START:STOP", help="Keep this part of every recording, in s.")
-@click.option("--exclude", metavar="PARTS", help="start_transient, stop_transient or both, with a comma.")
-@click.option("--quiet", is_flag=True, help="No progress, no tables.")
+@fit_options
+@trim_options
+@report_options
 @common_options
 def laws(
     recordings: tuple[str, ...],
@@ -60,6 +54,7 @@ def laws(
     bounds: tuple[str, ...],
     cut: str | None,
     exclude: str | None,
+    as_json: bool,
     quiet: bool,
     mapping: tuple[str, ...],
     conditions: tuple[str, ...],
@@ -69,7 +64,8 @@ def laws(
 ) -> int:
     """Fit RECORDINGS (files or folders) at several currents together, with laws over the current.
 
-    A law that is not given is chosen by how well it predicts currents that are left out of the fit.
+    A law that is not given is chosen by how well it predicts currents that are left out of the fit, and is
+    not constant where the fit plainly speaks for a change.
 
     \b
     Examples:
@@ -77,13 +73,14 @@ def laws(
       mre-core laws *.csv --model bouc_wen --predict 0.5 --name-pattern '{amplitude}mm{frequency}Hz{current}A'
     """  # noqa: D301  # \b keeps the lines
     from contextlib import nullcontext
+    from dataclasses import asdict
 
     from pandas import DataFrame
 
     from ..current_laws.fit import fit_laws
     from ..current_laws.plots import plot_laws
     from ..measure import measure_fit
-    from ..output import Stage, staged
+    from ..output import Stage, staged, to_json
     from .progress import spinner
     from .settings import write_settings
 
@@ -103,20 +100,24 @@ def laws(
     place = staged(out) if out is not None else nullcontext()
     with place as stage:
         with spinner("fitting", quiet=quiet):
-            settings: dict[str, Any] = {"over": over, "bounds": read_bounds(bounds), **options}
+            settings: dict[str, Any] = {"over": over, "bounds": read_bounds(bounds)}
+            settings |= {key: value for key, value in options.items() if value is not None}
             kept = _Again(lambda again: (r for r in read(again=again) if not _is_at(r, over, predict)))
             found = fit_laws(kept, model, _laws(laws), shared, **settings)
             left_out = [] if predict is None else (r for r in read(again=True) if _is_at(r, over, predict))
             predicted = [measure_fit(found.model, recording) for recording in left_out]
         if predict is not None and not predicted:
             raise InputError(f"no recording at {predict:g}", wanted=f"the {over} of some recording")
+        content = found.to_dict() | {"predicted": [asdict(fit) for fit in predicted]}
         if isinstance(stage, Stage) and out is not None:
             write_settings(stage, out)
             stage.write_json("model.json", found.model.to_dict())
-            stage.write_json("laws.json", _content(found, predicted))
+            stage.write_json("laws.json", content)
             DataFrame(found.rows()).to_csv(stage.path("laws.csv"), index=False, lineterminator="\n")
             plot_laws(found.model).savefig(stage.path("laws.png"), dpi=110)
-    if not quiet:
+    if as_json:
+        click.echo(to_json(content), nl=False)
+    elif not quiet:
         _print(found, predicted)
     return 0
 
@@ -151,12 +152,6 @@ def _laws(texts: tuple[str, ...]) -> dict[str, str]:
             raise InputError(f"--law {text}", wanted="--law NAME=LAW, each name once")
         found[name] = kind
     return found
-
-
-def _content(found: "LawFit", predicted: "list[Fit]") -> dict[str, Any]:
-    from dataclasses import asdict
-
-    return found.to_dict() | {"predicted": [asdict(fit) for fit in predicted]}
 
 
 def _print(found: "LawFit", predicted: "list[Fit]") -> None:

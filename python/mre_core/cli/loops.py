@@ -5,7 +5,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from .arguments import common_options, load_all, trimmed
+from .arguments import load_all, trimmed
+from .options import common_options, report_options, trim_options
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -24,11 +25,9 @@ if TYPE_CHECKING:
     metavar="displacement_extremes|peak_force",
     help="Forces that make the effective stiffness and the damping ratio.",
 )
-@click.option("--cut", metavar="START:STOP", help="Keep this part of every recording, in s.")
-@click.option("--exclude", metavar="PARTS", help="start_transient, stop_transient or both, with a comma.")
-@click.option("--json", "as_json", is_flag=True, help="JSON on standard output in place of tables.")
+@trim_options
 @click.option("--no-figures", is_flag=True, help="Write no figures.")
-@click.option("--quiet", is_flag=True, help="No tables.")
+@report_options
 @common_options
 def loops(
     recordings: tuple[str, ...],
@@ -58,7 +57,7 @@ def loops(
     """  # noqa: D301  # \b keeps the lines
     from ..loops import loops as run
     from ..model import Model
-    from ..output import staged
+    from ..output import staged, to_json
     from .settings import write_settings
 
     given = None if model is None else Model.load(model)
@@ -81,11 +80,7 @@ def loops(
 
                 save(plot_loops(loaded, given), stage.path("loops.png"))
     if as_json:
-        import json
-
-        from ..output import finite
-
-        click.echo(json.dumps(finite(content), indent=2, ensure_ascii=False, allow_nan=False))
+        click.echo(to_json(content), nl=False)
     elif not quiet:
         _print(found)
 

@@ -85,6 +85,8 @@ def _run(given: list[str]) -> int:
     except click.exceptions.NoArgsIsHelpError as error:
         print(error.format_message())
         return 0
+    except click.MissingParameter as error:
+        return _fail(_missing(error), 2)
     except click.ClickException as error:
         return _fail(error.format_message(), 2)
     except MreError as error:
@@ -99,6 +101,15 @@ def _run(given: list[str]) -> int:
         raise
     except Exception as error:
         return _unforeseen(error)
+
+
+def _missing(error: click.MissingParameter) -> str:
+    """Say with a missing option what it is for, and where the examples are."""
+    found = error.format_message().rstrip(".")
+    if isinstance(error.param, click.Option) and error.param.help:
+        found += f", wanted: {error.param.help.rstrip('.')}"
+    path = error.ctx.command_path if error.ctx is not None else "mre-core"
+    return f"{found} ({path} --help has examples)"
 
 
 def _unforeseen(error: Exception) -> int:

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from .arguments import config_option
+from .options import config_option
 
 
 @click.command("next-test")

@@ -4,7 +4,8 @@ from pathlib import Path
 
 import click
 
-from .arguments import common_options, load_motion
+from .arguments import load_motion
+from .options import common_options
 
 
 @click.command()

@@ -5,7 +5,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from .arguments import WHOLE, common_options, load_all, trimmed
+from .arguments import load_all, trimmed
+from .options import WHOLE, common_options
 
 if TYPE_CHECKING:
     from ..output import Stage

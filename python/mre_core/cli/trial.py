@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from .arguments import WHOLE, config_option
+from .options import WHOLE, config_option
 
 if TYPE_CHECKING:
     from ..trial import Opening

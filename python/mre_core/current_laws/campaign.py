@@ -114,6 +114,12 @@ class Campaign:
         ends = [end for p in self.parts for end in p.currents]
         return tuple(sorted({*steady, min(ends), max(ends)}))
 
+    @property
+    def inner(self) -> tuple[float, ...]:
+        """Levels that others enclose and that recordings are at: those that can be left out."""
+        steady = [p.currents[0] for p in self.parts if len(p.currents) == 1]
+        return tuple(level for level in self.levels[1:-1] if level in steady)
+
     def without(self, level: float) -> "Campaign":
         """Leave out the recordings at one level."""
         return replace(self, parts=tuple(p for p in self.parts if p.currents != (level,)))

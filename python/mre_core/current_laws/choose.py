@@ -1,9 +1,15 @@
-"""Choose the laws by what they predict at currents that they were not fitted to."""
+"""Choose the laws by what they predict at currents that they were not fitted to.
 
-from collections.abc import Mapping, Sequence
+A level between others is left out, and predicted from them. The lowest and the highest cannot be: outside the
+tested currents no law is followed. They count as fitted. Left uncounted, they would be missed: three evenly
+spaced currents of a device with linear laws have a middle that the mean of the outer two predicts as well.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .campaign import Campaign
 from .joint import Joint, fit
@@ -11,6 +17,10 @@ from .law import FEWEST, LAWS, Law
 
 _WORTH = 0.99
 """A law with more values has to bring the error down to this share."""
+_EXACT = 1e-12
+"""An error of the fit, as a share of the force, that is rounding."""
+Independent = Callable[[Joint], float]
+"""Tells how many independent samples the noise around a fit amounts to."""
 
 
 @dataclass(frozen=True)
@@ -22,33 +32,36 @@ class Trial:
     """Rms error at the levels left out, as a share of the force's rms there."""
     by_level: Mapping[float, float]
     """The same by the current that was left out, A."""
+    score: float
+    """The same of all recordings: those at the levels left out as predicted, the others as fitted."""
+    fitted: float
+    """The same of all recordings as fitted."""
 
 
 def leave_one_current_out(campaign: Campaign, kinds: Mapping[str, str], start: Joint | None) -> Trial | None:
     """Fit without each level in turn that others enclose, and predict it.
 
-    None where there is no such level, or where a law would not be determined without it. The lowest and the
-    highest level are not left out: outside the tested currents no law is followed. Constant shapes are
+    None where there is no such level, or where a law would not be determined without it. Constant shapes are
     kept as in `start`, if that is given.
     """
-    lowest, highest = campaign.levels[0], campaign.levels[-1]
-    squares, force, by_level = 0.0, 0.0, {}
-    for level in campaign.levels:
-        if not lowest < level < highest:
-            continue
-        rest = campaign.without(level)
-        if any(len(rest.levels) < FEWEST[kind] for kind in kinds.values()):
-            return None
-        laws = laws_of(kinds, rest.levels)
-        shapes = [] if start is None else [n for n in campaign.structure.shapes if kinds[n] == "constant"]
-        held = {} if start is None else {name: start.parameters[name] for name in shapes}
-        joint = fit(rest, laws, start, held)
-        error, size = misfit(campaign.only(level), joint)
-        squares, force = squares + error, force + size
-        by_level[level] = float(np.sqrt(error / size))
-    if not by_level:
+    inner = campaign.inner
+    if not inner or any(len(campaign.levels) - 1 < FEWEST[kind] for kind in kinds.values()):
         return None
-    return Trial(dict(kinds), float(np.sqrt(squares / force)), by_level)
+    shapes = [] if start is None else [n for n in campaign.structure.shapes if kinds[n] == "constant"]
+    held = {} if start is None else {name: start.parameters[name] for name in shapes}
+
+    def fitted(to: Campaign) -> Joint:
+        return fit(to, laws_of(kinds, to.levels), start, held)
+
+    predicted = {level: misfit(campaign.only(level), fitted(campaign.without(level))) for level in inner}
+    outer = campaign
+    for level in inner:
+        outer = outer.without(level)
+    left_out = np.sum(list(predicted.values()), axis=0)
+    joint = fitted(campaign)
+    score = share(left_out + misfit(outer, joint))
+    by_level = {level: share(sums) for level, sums in predicted.items()}
+    return Trial(dict(kinds), share(left_out), by_level, score, share(misfit(campaign, joint)))
 
 
 def misfit(campaign: Campaign, joint: Joint) -> tuple[float, float]:
@@ -62,17 +75,27 @@ def misfit(campaign: Campaign, joint: Joint) -> tuple[float, float]:
     return float(np.sum((rows @ values - right) ** 2)), float(np.sum(right**2))
 
 
+def share(sums: Sequence[float] | NDArray[np.float64]) -> float:
+    """Rms error as a share of the force's rms, from `misfit`; 0 where there is no force."""
+    return float(np.sqrt(sums[0] / sums[1])) if sums[1] > 0 else 0.0
+
+
 def laws_of(kinds: Mapping[str, str], levels: Sequence[float]) -> dict[str, Law]:
     """Laws over levels of the current."""
     return {name: Law.of(kind, levels) for name, kind in kinds.items()}
 
 
-def choose(campaign: Campaign, given: Mapping[str, str]) -> tuple[dict[str, str], list[Trial], Joint]:
-    """Choose the laws that are not given, one parameter after the other, while the prediction improves.
+def choose(
+    campaign: Campaign, given: Mapping[str, str], independent: Independent | None = None
+) -> tuple[dict[str, str], list[Trial], Joint]:
+    """Choose the laws that are not given, one parameter after the other, while that is worth it.
 
-    Begins with constants. In every round the change is made that predicts the levels left out best, if it
-    brings the error down by more than 1 %; of changes that do so within 1 %, the one with the fewest
-    values. Where no level can be left out, coefficients are linear and shapes constant.
+    Begins with constants. In every round the change is made that has the best score, if it brings the score
+    down by more than 1 %; of changes that do so within 1 %, the one with the fewest values. Where there is
+    none, a constant gives way to the best law for which the fit to all levels speaks plainly (`_is_plain`):
+    the score says little of a parameter that moves the force by less than the laws miss it by. That is not
+    looked for without `independent`. Where no level can be left out, coefficients are linear and shapes
+    constant.
 
     Returns
     -------
@@ -89,23 +112,43 @@ def choose(campaign: Campaign, given: Mapping[str, str]) -> tuple[dict[str, str]
         kinds |= {name: plain for name in open_to if name in structure.coefficients}
         return kinds, [], start
     trials = [best]
+    changing: set[str] = set()  # no constants again, or the search could go round in circles
     while True:
         tried = []
         for name in open_to:
             for kind in LAWS:
                 if kind == kinds[name] or (name in structure.shapes and kind not in ("constant", "linear")):
                     continue
+                if kind == "constant" and name in changing:
+                    continue
                 trial = leave_one_current_out(campaign, kinds | {name: kind}, start)
                 if trial is not None:
                     tried.append(trial)
         trials += tried
-        least = min((trial.error for trial in tried), default=best.error)
-        if least >= _WORTH * best.error:
-            return kinds, trials, start
-        best = min((t for t in tried if _WORTH * t.error <= least), key=_simplicity)
+        least = min((trial.score for trial in tried), default=best.score)
+        if least < _WORTH * best.score:
+            best = min((t for t in tried if _WORTH * t.score <= least), key=_simplicity)
+        else:
+            count = 0.0 if independent is None else independent(start)
+            constant = [name for name in open_to if kinds[name] == "constant"]
+            plain_changes = [t for t in tried if _is_plain(campaign, best, t, constant, count)]
+            if not plain_changes:
+                return kinds, trials, start
+            best = min(plain_changes, key=lambda trial: trial.score)
+            changing |= {name for name in constant if best.laws[name] != "constant"}
         kinds = dict(best.laws)
         start = fit(campaign, laws_of(kinds, campaign.levels), start)
 
 
+def _is_plain(campaign: Campaign, before: Trial, after: Trial, constant: Sequence[str], count: float) -> bool:
+    """Tell whether a law in place of a constant is worth its values, by Schwarz's criterion (BIC)."""
+    if count <= 1 or all(after.laws[name] == "constant" for name in constant):
+        return False
+    laws = [laws_of(trial.laws, campaign.levels).values() for trial in (before, after)]
+    few, many = (sum(len(law.nodes) for law in each) for each in laws)
+    gain = 2 * count * np.log(max(before.fitted, _EXACT) / max(after.fitted, _EXACT))
+    return bool(gain > (many - few) * np.log(count))
+
+
 def _simplicity(trial: Trial) -> tuple[int, float]:
-    return sum(LAWS.index(kind) for kind in trial.laws.values()), trial.error
+    return sum(LAWS.index(kind) for kind in trial.laws.values()), trial.score

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
+from functools import partial
 from typing import Any, Literal
 
 import numpy as np
@@ -10,8 +11,8 @@ from .._core import Recording
 from ..errors import InputError
 from ..model import Level, Model
 from .campaign import Campaign, read_campaign
-from .choose import Trial, choose, laws_of, leave_one_current_out, misfit
-from .intervals import Spread, read_spread
+from .choose import Trial, choose, laws_of, leave_one_current_out, misfit, share
+from .intervals import Spread, independent_samples, read_spread
 from .joint import Joint, fit
 from .law import FEWEST, LAWS
 from .structure import Structure
@@ -92,7 +93,8 @@ def fit_laws(
         What to fit.
     laws : mapping, optional
         ``"constant"``, ``"linear"``, ``"quadratic"``, ``"saturating"`` or ``"free"`` by parameter. Those not
-        named are chosen: by the error at currents that are left out of the fit.
+        named are chosen: by the error at currents that are left out of the fit, the outermost as fitted; and
+        where the fit to all speaks plainly for a change (Schwarz's criterion), a parameter is not constant.
     shared : sequence of str
         Parameters that are the same at all currents; the same as ``"constant"``.
     over : {"current", "temperature", "amplitude"}
@@ -129,7 +131,9 @@ def fit_laws(
                 raise InputError(found, wanted=f"at least {FEWEST[kind]}")
         kinds, trials, start = given, list[Trial](), None
         if len(given) < len(structure.names):
-            kinds, trials, start = choose(campaign, given)
+            once = isinstance(recordings, Iterator)
+            count = None if once else partial(independent_samples, recordings, campaign, over=over)
+            kinds, trials, start = choose(campaign, given, count)
         joint = fit(campaign, laws_of(kinds, campaign.levels), start)
         left_out = leave_one_current_out(campaign, kinds, joint)
         spread = None
@@ -175,16 +179,13 @@ def _result(
     by_level = {}
     for part in campaign.parts:
         if len(part.currents) == 1:
-            error, size = misfit(campaign.only(part.currents[0]), joint)
-            by_level[part.currents[0]] = float(np.sqrt(error / size))
-    mean = squares / campaign.weight
-    scale = force / campaign.weight
+            by_level[part.currents[0]] = share(misfit(campaign.only(part.currents[0]), joint))
     return LawFit(
         Model(
             campaign.structure.model, levels, {**campaign.tested, **ends}, laws=joint.parameters, over=over
         ),
-        float(np.sqrt(mean)),
-        float(np.sqrt(mean / scale)),
+        float(np.sqrt(squares / campaign.weight)),
+        share((squares, force)),
         by_level,
         left_out,
         tuple(trials),
@@ -195,7 +196,13 @@ def _result(
 
 def _trial(trial: Trial) -> dict[str, Any]:
     by_level = _rows(trial.by_level)
-    return {"laws": dict(trial.laws), "relative_rms": trial.error, "relative_rms_by_level": by_level}
+    return {
+        "laws": dict(trial.laws),
+        "relative_rms": trial.error,
+        "relative_rms_by_level": by_level,
+        "relative_rms_with_ends": trial.score,
+        "relative_rms_fitted": trial.fitted,
+    }
 
 
 def _rows(by_level: Mapping[float, float]) -> list[dict[str, float]]:

@@ -104,6 +104,17 @@ def read_spread(
     return Spread(values, intervals, covariance, quantile)
 
 
+def independent_samples(
+    recordings: Recording | Iterable[Recording], campaign: Campaign, joint: Joint, over: str
+) -> float:
+    """Count the independent samples that the noise around a joint fit amounts to, over all recordings."""
+    count = 0.0
+    for recording in each_of(recordings):
+        _, residual = tangents(campaign, joint, recording, over)
+        count += _core.noise_products([], residual, recording.sampling_rate)[1]
+    return count
+
+
 def _sandwich(plain: Array, noisy: Array) -> Array:
     scale = 1 / np.sqrt(np.diag(plain))
     roots, vectors = np.linalg.eigh(plain * np.outer(scale, scale))

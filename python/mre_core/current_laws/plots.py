@@ -8,13 +8,17 @@ from ..errors import InputError
 from .variable import UNITS
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from matplotlib.figure import Figure
 
     from ..model import Model
 
 
 def plot_laws(model: "Model") -> "Figure":
-    """Every parameter against what its law runs over; the values of the law are marked.
+    """Every parameter against what its law runs over, with 95 % intervals at the tested levels.
+
+    Hollow marks are the values of the law. Intervals are missing where the recordings do not determine them.
 
     Parameters
     ----------
@@ -44,9 +48,21 @@ def plot_laws(model: "Model") -> "Figure":
     for axis, (name, law) in zip(axes, model.laws.items(), strict=False):
         axis.plot(along, law.at(along), color="black", linewidth=0.9)
         axis.plot(law.law.nodes, law.values, "o", markersize=3, color="black", fillstyle="none")
+        for at, (low, high) in _intervals(model, name):
+            axis.plot([at, at], [low, high], color="0.4", linewidth=0.9, marker="_", markersize=5)
         axis.set_title(f"{name}: {law.law.kind}", fontsize="medium")
         axis.set_xlabel(f"{model.over} / {UNITS[model.over]}")
         axis.set_ylabel(model.units[name])
     for axis in axes[len(model.laws) :]:
         axis.remove()
     return figure
+
+
+def _intervals(model: "Model", name: str) -> "Iterator[tuple[float, tuple[float, float]]]":
+    """Intervals of a parameter, each with its place."""
+    for level in model.levels:
+        at = level.current
+        if model.over != "current":  # the one level is the middle of what was tested
+            at = 0.5 * (model.tested[f"{model.over}_from"] + model.tested[f"{model.over}_to"])
+        if at is not None and name in level.intervals:
+            yield at, level.intervals[name]

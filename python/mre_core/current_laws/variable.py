@@ -33,7 +33,7 @@ def series_of(recording: Recording, over: str) -> NDArray[np.float64]:
         return np.array([np.abs(recording.displacement).max()])
     known = recording.current if over == "current" else recording.temperature
     if known is None:
-        wanted = f"{over}=VALUE[{UNITS[over]}] for all: a law needs the {over}"
+        wanted = f"a column of it, {over}=VALUE[{UNITS[over]}], or {{{over}}} in a name pattern"
         raise InputError(f"recording '{recording.name}' has no {over}", wanted=wanted)
     values = np.atleast_1d(np.asarray(known, dtype=np.float64))
     if over == "current":

@@ -17,25 +17,9 @@ _DIALECT: Final = Dialect("\t", ".")
 
 
 def read(path: Path, options: ReadOptions) -> list[Table]:
-    """Read a workbook.
+    """Read a workbook: one table for each sheet with numbers. See `readers` for what all readers share.
 
-    Parameters
-    ----------
-    path : Path
-        The workbook. A sheet may have a preamble and a row of units; formulas count with the value that
-        was saved.
-    options : ReadOptions
-        What the user has said about it.
-
-    Returns
-    -------
-    list of Table
-        One for each sheet with numbers.
-
-    Raises
-    ------
-    InputError
-        The file cannot be read, or has no sheet with numbers.
+    A sheet may have a preamble and a row of units; formulas count with the value that was saved.
     """
     file = str(path)
     sheets = _old_sheets(path, file) if path.suffix.lower() == ".xls" else _sheets(path, file)

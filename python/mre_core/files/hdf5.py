@@ -14,25 +14,7 @@ _UNIT_KEYS: Final = ("units", "unit", "Units", "Unit")
 
 
 def read(path: Path, options: ReadOptions) -> list[Table]:
-    """Read an HDF5 file.
-
-    Parameters
-    ----------
-    path : Path
-        The file.
-    options : ReadOptions
-        Not used.
-
-    Returns
-    -------
-    list of Table
-        One for each group with data.
-
-    Raises
-    ------
-    InputError
-        The file cannot be read, or has no group with at least two datasets of equal length.
-    """
+    """Read an HDF5 file: one table for each group with datasets of equal length. See `readers`."""
     file = str(path)
     h5py = need("h5py", "hdf5", file=file)
     series: list[Series] = []

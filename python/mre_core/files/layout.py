@@ -72,18 +72,20 @@ def find_block(rows: Rows, given: int | None = None) -> Block | None:
     Returns
     -------
     Block or None
-        The table, to the end of the rows; None where there is no content at all.
+        The table, to the end of the rows; None where there is neither a header that is recognised nor a
+        row of numbers: notes, or nothing at all.
     """
-    header = given if given is not None else _header(rows)
-    if header is None:
-        first = next((i for i in rows.content(0, rows.length)), None)
-        if first is None:
-            return None
-        data = next(rows.content(first, _FARTHEST_HEADER), first)
-        data = next((i for i in rows.content(first, _FARTHEST_HEADER) if rows.is_data(i)), data)
-        width = len(rows.cells(data))
-        return Block([f"column {i + 1}" for i in range(width)], None, None, data, rows.length)
-    return _below(rows, header)
+    if given is not None:
+        return _below(rows, given)
+    near = range(min(rows.length, _FARTHEST_HEADER))
+    seen = next((i for i in near if rows.is_content(i) and rows.is_data(i) and _goes_on(rows, i)), None)
+    header = _header(rows, seen)
+    if header is not None:
+        return _below(rows, header)
+    if seen is None:
+        return None
+    headers = [f"column {i + 1}" for i in range(len(rows.cells(seen)))]
+    return Block(headers, None, None, seen, rows.length)
 
 
 def _below(rows: Rows, header: int) -> Block:
@@ -111,21 +113,16 @@ def _below(rows: Rows, header: int) -> Block:
     return Block(names, header, units, first, rows.length)
 
 
-def _header(rows: Rows) -> int | None:
-    """Find the row of names, or None where the numbers have none."""
-    seen = None
+def _header(rows: Rows, seen: int | None) -> int | None:
+    """Find the row of names above the first numbers, or None where they have none."""
     above = None
-    for i in rows.content(0, _FARTHEST_HEADER):
-        cells = rows.names(i, 0)
-        roles = {match[0] for cell in cells if (match := recognise(cell))}
+    for i in rows.content(0, _FARTHEST_HEADER if seen is None else seen + 1):
+        roles = {match[0] for cell in rows.names(i, 0) if (match := recognise(cell))}
         if len(roles) > 1:
             return i
-        if rows.is_data(i) and _goes_on(rows, i):
-            seen = i
-            break
-        above = i
+        above = i if i != seen else above
     if seen is None:
-        return next(rows.content(0, rows.length), None)
+        return None
     width = len(rows.cells(seen))
     if above is not None and _fits(rows, above, width):
         higher = [i for i in rows.content(0, above) if _fits(rows, i, width)]

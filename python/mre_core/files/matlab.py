@@ -18,24 +18,9 @@ _COMPRESSED: Final = 15
 
 
 def read(path: Path, options: ReadOptions) -> list[Table]:
-    """Read a .mat file.
+    """Read a .mat file: one table for each struct with data, and one for the workspace. See `readers`.
 
-    Parameters
-    ----------
-    path : Path
-        The file, with vectors, matrices (a column each) or structs of them.
-    options : ReadOptions
-        Not used.
-
-    Returns
-    -------
-    list of Table
-        One for each struct with data, and one for the workspace.
-
-    Raises
-    ------
-    InputError
-        The file cannot be read, or has no two vectors of equal length.
+    Of vectors, matrices (a column each) and structs of them, those of equal length are a table.
     """
     file = str(path)
     with path.open("rb") as opened:

@@ -16,25 +16,7 @@ _ROWS: Final = 1 << 18
 
 
 def read(path: Path, options: ReadOptions) -> list[Table]:
-    """Read a Parquet file.
-
-    Parameters
-    ----------
-    path : Path
-        The file.
-    options : ReadOptions
-        Not used.
-
-    Returns
-    -------
-    list of Table
-        The one table.
-
-    Raises
-    ------
-    InputError
-        The file cannot be read or is empty.
-    """
+    """Read a Parquet file, which is one table. See `readers` for what all readers share."""
     file = str(path)
     import pyarrow as arrow
     import pyarrow.parquet as parquet

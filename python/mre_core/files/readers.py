@@ -1,4 +1,10 @@
-"""The table of readers. A new format is one module with ``read(path, options)``, and one line here."""
+"""The table of readers. A new format is one module with ``read(path, options)``, and one line here.
+
+``read`` takes the path of a file that is there and within the limits, and what the user has said about it,
+which formats that say it themselves do not need. It gives a list of `Table`, at least one, whose numbers are
+read on demand. It raises an `InputError` where the file cannot be read, and a `NoTableError` where it is
+whole and holds no table.
+"""
 
 import importlib
 import os

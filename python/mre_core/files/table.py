@@ -17,6 +17,10 @@ class NoTableError(InputError):
     """A file holds no table of numbers at all; in a folder it is passed over."""
 
 
+class NotesError(NoTableError):
+    """A text without a header that is recognised and without rows of numbers: notes, no broken recording."""
+
+
 class Table(ABC):
     """Columns of one recording.
 

@@ -36,26 +36,11 @@ class Channel(NamedTuple):
 
 
 def read(path: Path, options: ReadOptions) -> list[Table]:
-    """Read a .tdms file.
+    """Read a .tdms file: one table for each group with at least two channels of data. See `readers`.
 
-    Parameters
-    ----------
-    path : Path
-        The file. Where the channels of a group are waveforms, time comes from ``wf_start_time``,
-        ``wf_start_offset`` and ``wf_increment``; channels that start at different times or have different
-        rates are brought to the times of the fastest one, over what all of them cover.
-    options : ReadOptions
-        Not used.
-
-    Returns
-    -------
-    list of Table
-        One for each group with at least two channels of data.
-
-    Raises
-    ------
-    InputError
-        The file cannot be read, has no such group, or its channels have no time in common.
+    Where the channels of a group are waveforms, time comes from ``wf_start_time``, ``wf_start_offset`` and
+    ``wf_increment``; channels that start at different times or have different rates are brought to the times
+    of the fastest one, over what all of them cover.
     """
     file = str(path)
     nptdms = need("nptdms", "tdms", file=file)

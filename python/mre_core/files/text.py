@@ -13,7 +13,7 @@ from .encoding import decode
 from .layout import Block, Rows, find_block
 from .limits import read_bytes
 from .options import ReadOptions
-from .table import NoTableError, Table
+from .table import NoTableError, NotesError, Table
 
 if TYPE_CHECKING:
     import numpy as np
@@ -53,26 +53,11 @@ class TextTable(Table):
 
 
 def read(path: Path, options: ReadOptions) -> list[Table]:
-    """Read a text file.
+    """Read a text file: one table for each block. See `readers` for what all readers share.
 
-    Parameters
-    ----------
-    path : Path
-        Text in any of the usual encodings, with columns between commas, semicolons, tabs, bars or blanks.
-        Lines before the header are passed over, ``#`` lines too; below it there may be a row of units.
-        The header may come again, with another block of data.
-    options : ReadOptions
-        What the user has said about it.
-
-    Returns
-    -------
-    list of Table
-        One for each block.
-
-    Raises
-    ------
-    InputError
-        The file cannot be read, is no text, or has no header or no data.
+    Text is in any of the usual encodings, with columns between commas, semicolons, tabs, bars or blanks.
+    Lines before the header are passed over, ``#`` lines too; below it there may be a row of units. The
+    header may come again, with another block of data.
     """
     file = str(path)
     data = read_bytes(path)
@@ -123,7 +108,7 @@ def find_table(
         raise InputError(f"has {len(lines)} lines", file=file, wanted=f"a header in line {options.header}")
     block = find_block(rows, None if options.header is None else options.header - 1)
     if block is None:
-        raise NoTableError("no header and no data", file=file, wanted=f"a header such as {_EXAMPLE}")
+        raise NotesError("no rows of numbers", file=file, wanted=f"a header such as {_EXAMPLE} and data")
     return block, rows, dialect
 
 

@@ -14,6 +14,9 @@ const TERMS: usize = 4;
 /// Samples over which the window is chosen; more add cost, not certainty.
 const TRIAL_SAMPLES: usize = 4_000;
 
+/// Widest half window in samples of what a displacement has beside its velocity.
+const WIDEST: usize = 200;
+
 /// A derived velocity and the window it came from.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Derived {
@@ -30,7 +33,39 @@ pub struct Derived {
 /// # Panics
 /// Never for at least five samples of equal count in both slices.
 pub fn from_displacement(time: &[f64], displacement: &[f64]) -> Derived {
-    let half = best_half_width(time, displacement);
+    smooth(time, displacement, usize::MAX)
+}
+
+/// Displacement in mm less the noise that a recorded velocity in mm/s does not share.
+///
+/// What the displacement has beside the integral of the velocity is smoothed, over a window that keeps all of it
+/// that is not noise: drift of the integral, and any motion that the velocity misses.
+pub fn without_noise(time: &[f64], displacement: &[f64], velocity: &[f64]) -> Vec<f64> {
+    let travelled = integral(time, velocity);
+    let beside: Vec<f64> = displacement.iter().zip(&travelled).map(|(x, s)| x - s).collect();
+    let kept = smooth(time, &beside, WIDEST).displacement;
+    kept.iter().zip(&travelled).map(|(d, s)| d + s).collect()
+}
+
+/// Integral from the first sample, by cubics through the values with the slopes of their neighbours.
+fn integral(time: &[f64], values: &[f64]) -> Vec<f64> {
+    let last = values.len() - 1;
+    let slope = |i: usize| {
+        let (a, b) = (i.saturating_sub(1), (i + 1).min(last));
+        (values[b] - values[a]) / (time[b] - time[a])
+    };
+    let mut sum = 0.0;
+    std::iter::once(0.0)
+        .chain((1..=last).map(|i| {
+            let h = time[i] - time[i - 1];
+            sum += 0.5 * h * (values[i - 1] + values[i]) + h * h / 12.0 * (slope(i - 1) - slope(i));
+            sum
+        }))
+        .collect()
+}
+
+fn smooth(time: &[f64], displacement: &[f64], widest: usize) -> Derived {
+    let half = best_half_width(time, displacement, widest);
     let local = |i: usize| {
         let local = Local::fit(time, displacement, i, half);
         (local.slope, local.value)
@@ -40,11 +75,11 @@ pub fn from_displacement(time: &[f64], displacement: &[f64]) -> Derived {
     Derived { velocity, displacement, window: 2.0 * half as f64 * step }
 }
 
-fn best_half_width(time: &[f64], displacement: &[f64]) -> usize {
+fn best_half_width(time: &[f64], displacement: &[f64], widest: usize) -> usize {
     let n = time.len();
     let stride = n.div_ceil(TRIAL_SAMPLES);
     let mut best = (f64::INFINITY, 2);
-    for half in candidates((n - 1) / 2) {
+    for half in candidates(((n - 1) / 2).min(widest)) {
         let score = cross_validation(time, displacement, half, stride);
         // A wider window wins ties: it carries less noise into the velocity.
         if score <= best.0 {

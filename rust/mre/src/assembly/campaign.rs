@@ -92,16 +92,17 @@ impl Campaign {
     }
 }
 
-/// A recording whose displacement is the one that its derived velocity is the slope of.
+/// A recording whose displacement is the one that its velocity is the slope of.
 ///
 /// Otherwise the displacement noise, which the force does not follow, could be told from the two, and every
 /// effect with memory would seem to explain it.
 fn of_one_motion(recording: Arc<Recording>) -> Arc<Recording> {
-    if recording.velocity_window().is_none() {
-        return recording;
-    }
-    let derived = velocity::from_displacement(recording.time(), recording.displacement());
-    Arc::new(recording.seen_with(derived.displacement, recording.velocity().to_vec(), None))
+    let (time, x, v) = (recording.time(), recording.displacement(), recording.velocity());
+    let displacement = match recording.velocity_window() {
+        Some(_) => velocity::from_displacement(time, x).displacement,
+        None => velocity::without_noise(time, x, v),
+    };
+    Arc::new(recording.seen_with(displacement, v.to_vec(), None))
 }
 
 fn current(recording: &Recording) -> Option<Vec<f64>> {
