@@ -166,3 +166,14 @@ def test_a_damaged_entry_of_a_workbook(tmp_path: Path, place: int) -> None:
     for value in (0, 64, 255):
         path.write_bytes(content[:entry] + bytes([value]) + content[entry + 1 :])
         refused(path)
+
+
+@pytest.mark.parametrize("name", ["a.h5", "a.mat"])
+def test_a_type_that_numpy_does_not_have(tmp_path: Path, name: str) -> None:
+    with h5py.File(tmp_path / name, "w", userblock_size=512) as file:
+        space = h5py.h5s.create_simple((20,))
+        h5py.h5d.create(file.id, b"time_s", h5py.h5t.UNIX_D64LE, space)
+    if name.endswith("mat"):
+        with (tmp_path / name).open("r+b") as raw:
+            raw.write(b"MATLAB 7.3 MAT-file".ljust(124) + b"\x00\x02IM")
+    refused(tmp_path / name, "cannot be read")
