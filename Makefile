@@ -5,7 +5,8 @@ BIN := $(VENV)/bin
 export CARGO_BUILD_JOBS ?= 2
 STAMP := $(VENV)/.installed
 
-.PHONY: demo study test test-rust test-python lint bench figures rivals trials proof rates bad-inputs fuzz moments third-party docs install clean
+.PHONY: demo study test test-rust test-python lint bench figures rivals trials proof rates bad-inputs fuzz moments \
+	endurance wheel advisories third-party docs install clean
 
 # The main job: identify the paper's twelve tests (a simulated replica) with both models and all swarms.
 demo: install
@@ -75,6 +76,25 @@ fuzz: install
 moments: install
 	PYTHONPATH=tests $(BIN)/python -m moments 200
 
+# Mixed work in one process for MINUTES: fails where memory, files, threads or processes are kept.
+endurance: install
+	PYTHONPATH=tests $(BIN)/python -m endurance $(or $(MINUTES),60)
+
+# The wheel, made from the source distribution, in an empty environment of every Python found.
+wheel: install
+	rm -rf dist
+	$(BIN)/maturin build --release --sdist --out dist
+	PYTHONPATH=tests $(BIN)/python -m installation dist/*.whl
+
+# Known vulnerabilities of everything installed and of every crate in Cargo.lock. Asks the Python Package Index and the
+# advisory database of RustSec; fails where one of them cannot be reached.
+advisories: install
+	$(BIN)/python -m pip install --quiet "pip-audit>=2.10,<3"
+	$(BIN)/python -m pip freeze --quiet --exclude-editable > $(VENV)/installed.txt
+	$(BIN)/pip-audit --strict --no-deps --disable-pip --progress-spinner off --requirement $(VENV)/installed.txt
+	cargo install --quiet --locked --root $(VENV) cargo-audit@0.22.2
+	$(BIN)/cargo-audit audit --deny warnings
+
 # The list of what others have made, with licences.
 third-party: install
 	PYTHONPATH=tests $(BIN)/python -m licences
@@ -98,4 +118,4 @@ $(STAMP): pyproject.toml Cargo.toml Cargo.lock $(shell find rust python -name '*
 	touch $(STAMP)
 
 clean:
-	rm -rf $(VENV) target demo study site trial judged
+	rm -rf $(VENV) target dist demo study site trial judged

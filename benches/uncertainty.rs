@@ -20,7 +20,7 @@ fn refits(c: &mut Criterion) {
     let mut group = c.benchmark_group("uncertainty/1000");
     group.sample_size(10);
     group.bench_function("tangents", |b| {
-        b.iter(|| uncertainty::estimate(black_box(&problem), &found.values, LEVEL));
+        b.iter(|| uncertainty::estimate(black_box(&problem), &found.values, LEVEL, &never));
     });
     for threads in [1, 2] {
         let Ok(pool) = rayon::ThreadPoolBuilder::new().num_threads(threads).build() else { return };

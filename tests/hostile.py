@@ -4,6 +4,16 @@ import zipfile
 from collections.abc import Iterable
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
+
+import mre_core
+import numpy as np
+import pytest
+from mre_core import InputError
+
+ROLES = ("time_s", "displacement_mm", "force_N")
+T = np.arange(200) / 100
+VALUES: Any = (T, np.sin(9 * T), 5 * np.sin(9 * T))
 
 SHEET = '<worksheet xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main"><sheetData>'
 END = "</sheetData></worksheet>"
@@ -26,6 +36,16 @@ _PARTS = {
     "xl/_rels/workbook.xml.rels": f'<Relationships xmlns="{_RELATIONS}"><Relationship Id="r1" '
     f'Type="{_OFFICE}/worksheet" Target="worksheets/sheet1.xml"/></Relationships>',
 }
+
+
+def refused(path: Path, *pieces: str) -> None:
+    for read in (mre_core.load_all, mre_core.inspect):
+        with pytest.raises(InputError) as caught:
+            read(path)
+        assert str(caught.value).startswith(str(path))
+        assert len(str(caught.value).splitlines()) == 1
+        for piece in pieces:
+            assert piece in str(caught.value)
 
 
 def workbook(path: Path, sheet: Iterable[str]) -> Path:

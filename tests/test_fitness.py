@@ -556,3 +556,19 @@ def test_bad_input_is_named_in_one_line(case: str) -> None:
     for piece in pieces:
         assert piece in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+def test_a_value_does_not_depend_on_the_others_at_any_shape() -> None:
+    # Below n = 1 the hysteretic variable turns so sharply that the last bit of a velocity counts.
+    draw = np.random.default_rng(0)
+    for _ in range(500):
+        n = int(draw.integers(12, 60))
+        time = np.cumsum(np.exp(draw.normal(0, draw.choice([0, 1, 2]), n))) * 0.02
+        problem = Problem(Recording(time, draw.normal(size=n), draw.normal(size=n)), "bouc_wen")
+        shapes = [
+            10.0 ** draw.uniform(-1, 2, 3),
+            draw.uniform(0, 2, 3),
+            draw.choice([0, 0.1, 0.7, 1, 2, 3.5], 3),
+        ]
+        rows = np.column_stack([np.ones(3), np.ones(3), np.full(3, 10.0), *shapes, np.ones(3)])
+        assert [problem.fitness(row) for row in rows] == problem.fitness(rows).tolist()

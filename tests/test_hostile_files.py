@@ -5,30 +5,13 @@ from pathlib import Path
 from typing import Any
 
 import h5py
-import mre_core
 import numpy as np
 import pyarrow
-import pyarrow.parquet as pq
 import pytest
-from hostile import END, SHEET, cell, laughs, wide, workbook
-from mre_core import InputError
+from hostile import END, ROLES, SHEET, VALUES, cell, laughs, refused, wide, workbook
 from rig import Cli, run_process
 
 pa: Any = pyarrow
-
-ROLES = ("time_s", "displacement_mm", "force_N")
-T = np.arange(200) / 100
-VALUES: Any = (T, np.sin(9 * T), 5 * np.sin(9 * T))
-
-
-def refused(path: Path, *pieces: str) -> None:
-    for read in (mre_core.load_all, mre_core.inspect):
-        with pytest.raises(InputError) as caught:
-            read(path)
-        assert str(caught.value).startswith(str(path))
-        assert len(str(caught.value).splitlines()) == 1
-        for piece in pieces:
-            assert piece in str(caught.value)
 
 
 def test_entities_do_not_expand(tmp_path: Path) -> None:
@@ -102,32 +85,6 @@ def test_a_group_within_itself(tmp_path: Path) -> None:
     refused(tmp_path / "a.mat", "cannot be read")
 
 
-def test_a_text_repeated_very_often(tmp_path: Path) -> None:
-    # 50 GB where it is written out.
-    columns = dict(zip(ROLES, VALUES, strict=True))
-    long = pa.DictionaryArray.from_arrays(pa.array(np.zeros(500_000, int)), pa.array(["x" * 100_000]))
-    repeated = {role: np.resize(values, 500_000) for role, values in columns.items()}
-    repeated["time_s"] = np.arange(500_000) / 100
-    pq.write_table(pa.table(repeated | {"note": long}), tmp_path / "a.parquet", store_schema=False)
-    assert len(mre_core.load(tmp_path / "a.parquet").time) == 500_000
-
-
-def test_lists_of_very_many_values(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from mre_core.files import limits
-
-    lists = pa.array([[0.0] * 10_000] * 20)
-    pq.write_table(pa.table({"time_s": np.arange(20.0), "a": lists}), tmp_path / "a.parquet")
-    monkeypatch.setattr(limits, "MOST_VALUES", 100_000)
-    refused(tmp_path / "a.parquet", "unpacks to 2e+05 values")
-
-
-def test_a_column_whose_name_is_no_text(tmp_path: Path) -> None:
-    pq.write_table(pa.table(dict(zip(ROLES, VALUES, strict=True))), tmp_path / "a.parquet")
-    content = (tmp_path / "a.parquet").read_bytes()
-    (tmp_path / "a.parquet").write_bytes(content.replace(b"time_s", b"ti\x80e_s"))
-    refused(tmp_path / "a.parquet", "cannot be read", "a whole Parquet file")
-
-
 def mat(*elements: bytes) -> bytes:
     return b"MATLAB 5.0 MAT-file".ljust(124) + b"\x00\x01IM" + b"".join(elements)
 
@@ -198,3 +155,25 @@ def test_a_pickle_is_no_recording(tmp_path: Path, cli: Cli, ending: str) -> None
     status, _, err = cli("loops", tmp_path / f"a.{ending}", "--out", tmp_path / "out")
     assert (status, err.count("\n")) == (2, 1)
     assert not touched.exists()
+
+
+@pytest.mark.parametrize("place", range(46))
+def test_a_damaged_entry_of_a_workbook(tmp_path: Path, place: int) -> None:
+    # Every byte of the first entry of the list at the end: versions, flags, lengths.
+    path = workbook(tmp_path / "a.xlsx", SHEET + END)
+    content = path.read_bytes()
+    entry = content.index(b"PK\x01\x02") + place
+    for value in (0, 64, 255):
+        path.write_bytes(content[:entry] + bytes([value]) + content[entry + 1 :])
+        refused(path)
+
+
+@pytest.mark.parametrize("name", ["a.h5", "a.mat"])
+def test_a_type_that_numpy_does_not_have(tmp_path: Path, name: str) -> None:
+    with h5py.File(tmp_path / name, "w", userblock_size=512) as file:
+        space = h5py.h5s.create_simple((20,))
+        h5py.h5d.create(file.id, b"time_s", h5py.h5t.UNIX_D64LE, space)
+    if name.endswith("mat"):
+        with (tmp_path / name).open("r+b") as raw:
+            raw.write(b"MATLAB 7.3 MAT-file".ljust(124) + b"\x00\x02IM")
+    refused(tmp_path / name, "cannot be read")

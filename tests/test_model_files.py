@@ -104,6 +104,13 @@ def test_outside_the_tested_motion_warns() -> None:
     assert len(seen) == 1
 
 
+@pytest.mark.parametrize("tested", [0.0, 5e-324])
+def test_a_model_that_was_tested_at_rest(tested: float) -> None:
+    model = Model("sinh", (Level(None, SINH),), {"displacement_mm": tested})
+    with pytest.warns(mre_core.ExtrapolationWarning, match=r"displacement goes to 4 mm, tested up to \S+ mm"):
+        mre_core.simulate(model, motion(4.0))
+
+
 def test_written_fit_is_simulated_to_the_same_error(cli: Cli, tmp_path: Path, sinh_4mm: Recording) -> None:
     # Two currents and Bouc-Wen, whose state makes a difference wherever a simulation starts.
     files = []

@@ -143,9 +143,9 @@ def identify(
         if on_level is not None:
             on_level(i, len(groups), current)
         start = _start(model, problem, current) if isinstance(model, Model) else None
-        run = _with_uncertainty(_optimise(optimizer, problem, seed, start, options), problem)
-        if certify and run.reason is not StopReason.INTERRUPTED:
-            run = replace(run, certificate=certificate(problem, run, threads=options.get("threads")))
+        run = _optimise(optimizer, problem, seed, start, options)
+        if run.reason is not StopReason.INTERRUPTED:  # which is no optimum, and wants an end
+            run = _finished(run, problem, certify=certify, options=options)
         runs.append(run)
         symbols = [symbol for symbol, _ in parameters(name)]
         for level, values in problem.levels(run.x, current):
@@ -177,6 +177,21 @@ def _optimise(
     if best.reason is StopReason.INTERRUPTED:  # the swarm has ended, what belongs to it has not
         return replace(run, reason=best.reason)
     return replace(run, optimum=min(best.fitness, run.fitness))
+
+
+def _finished(
+    run: SwarmResult, problem: Problem, *, certify: bool, options: Mapping[str, Any]
+) -> SwarmResult:
+    """Add what belongs to a run that came to its end; interrupted there, the run is."""
+    try:
+        run = _with_uncertainty(run, problem)
+        if certify:
+            run = replace(run, certificate=certificate(problem, run, threads=options.get("threads")))
+    except KeyboardInterrupt:
+        if options.get("on_interrupt") != "return":
+            raise
+        run = replace(run, reason=StopReason.INTERRUPTED)
+    return run
 
 
 def _with_uncertainty(run: SwarmResult, problem: Problem) -> SwarmResult:

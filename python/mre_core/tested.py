@@ -33,9 +33,9 @@ def beyond_tested(model: "Model", recording: Recording) -> list[str]:
         if tested is not None and largest > 1.01 * tested:
             what, _, unit = key.partition("_")
             unit = unit.replace("_", "/")
-            beyond = 100 * (largest / tested - 1)
             sentence = f"{what} goes to {largest:.4g} {unit}, tested up to {tested:.4g} {unit}"
-            found.append(f"{sentence}: {beyond:.3g} % beyond")
+            share = f": {100 * (largest / tested - 1):.3g} % beyond" if tested else ""
+            found.append(sentence + share)
     known = [level.current for level in model.levels if level.current is not None]
     if known and recording.current is not None:
         current = np.asarray(recording.current)

@@ -21,6 +21,12 @@ def one(folder: Path) -> None:
         write_csv(folder / f"{current}A.csv", record(made_of("bouc_wen", BOUC_WEN), moved, noise=0.1))
 
 
+def campaign(folder: Path) -> None:
+    for current in (0.0, 0.5, 1.0):
+        device = made_of("bouc_wen", BOUC_WEN | {"kw": 40 + 20 * current})
+        write_csv(folder / f"{current}A.csv", record(device, motion(cycles=20, rate=200), noise=0.1))
+
+
 def several(folder: Path) -> None:
     (folder / "in").mkdir()
     device = made_of("bouc_wen", BOUC_WEN)
@@ -44,6 +50,7 @@ IDENTIFY = [
     "1",
 ]
 BATCH = ["batch", "in", "--model", "sinh", "--optimizer", "mafsa", "--no-figures", "--seed", "1"]
+LAWS = ["laws", "0.0A.csv", "0.5A.csv", "1.0A.csv", "--model", "bouc_wen", "--name-pattern", "{current}A"]
 RUN = ["trial", "run", "trial", "--resume"]
 
 JOBS = {
@@ -51,6 +58,7 @@ JOBS = {
     "identify, figures": Job(
         one, [*IDENTIFY, "--optimizer", "pso", "--iterations", "2", "--out", "out"], 3.0
     ),
+    "laws": Job(campaign, [*LAWS, "--quiet", "--out", "out"], 6.0),
     "batch": Job(several, [*BATCH, "--out", "out"], 3.0),
     "trial run": Job(trial, [*RUN, "--workers", "2"], 6.0),
     "trial run, one process": Job(trial, [*RUN, "--workers", "1"], 6.0),

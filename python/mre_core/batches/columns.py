@@ -34,7 +34,8 @@ def _column(name: str, values: list[Any]) -> "pd.Series[Any]":
     import pandas as pd
 
     if name in ("modified_time", "finished_time"):
-        return pd.Series(pd.to_datetime(values, unit="s", utc=True))
+        # A clock that is set wrong may tell a time that has no date.
+        return pd.Series(pd.to_datetime(values, unit="s", utc=True, errors="coerce"))
     if name in _WHOLE:
         return pd.Series(values, dtype="UInt64")
     if any(isinstance(value, str) for value in values):

@@ -5,6 +5,7 @@ import os
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -118,6 +119,8 @@ def batch(
         journal = stack.enter_context(journal_in(Path(out)))
         first = journal.begin(__version__, seed, settings)
         run = Ledger(items, list(seeds) if seeds is not None else [first], settings, journal, threads)
+        for needed in ("pandas", "pyarrow.parquet"):  # now: who stops a batch does not want to wait for it
+            import_module(needed)
         try:
             drive(run.left, engine, budget, run.keeper(on_progress))
         finally:

@@ -103,7 +103,8 @@ def identify(
         more = _more(found, profile, bootstrap, options.get("threads"))
         if isinstance(stage, Stage) and out is not None:
             write_settings(stage, out, seed=found.seed)
-            _write(stage, found, more, loaded, figures=not no_figures)
+            # Who interrupts wants an end: figures take longer than all the rest.
+            _write(stage, found, more, loaded, figures=not (no_figures or found.interrupted))
     if as_json:
         click.echo(to_json(describe(found, *more)), nl=False)
     elif not quiet:

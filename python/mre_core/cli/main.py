@@ -3,10 +3,12 @@
 Exit status: 0 done, 2 input or options wrong, 130 interrupted, 1 anything else.
 """
 
+import errno
 import os
 import sys
 import warnings
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import TextIO
 
 import click
@@ -29,6 +31,7 @@ from .study import study
 from .trial import trial
 
 _DEBUG = "MRE_CORE_TRACEBACK"
+_FULL = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
 
 
 @click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
@@ -58,6 +61,20 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command and return its exit status."""
     given = list(sys.argv[1:] if arguments is None else arguments)
     try:
+        status = _run(given)
+        print(end="", flush=True)
+        return status
+    except BrokenPipeError:  # whoever read the output has seen enough
+        sys.stderr.close()
+        return 1
+    except OSError as error:
+        if error.errno not in _FULL:
+            return _unforeseen(error)
+        return _fail(f"the output cannot be written: {error.strerror}, wanted room for it", 1)
+
+
+def _run(given: list[str]) -> int:
+    try:
         with sigterm_as_ctrl_c(), warnings.catch_warnings():
             warnings.simplefilter("default")
             warnings.showwarning = _show_warning
@@ -80,9 +97,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _fail("a file name holds a null byte: wanted a name without", 2)
     except (KeyboardInterrupt, click.Abort):
         return _fail("interrupted", 130)
-    except BrokenPipeError:  # whoever read the output has seen enough
-        sys.stderr.close()
-        return 1
+    except OSError:  # of the output: a file's has its name by now
+        raise
     except Exception as error:
         return _unforeseen(error)
 
@@ -104,8 +120,13 @@ def _unforeseen(error: Exception) -> int:
 
 
 def _fail(message: str, status: int) -> int:
-    print(f"mre-core: {one_line(message)}", file=sys.stderr)
+    _say(one_line(message))
     return status
+
+
+def _say(text: str) -> None:
+    with suppress(OSError):  # the disk that holds the errors may be the one that is full
+        print(f"mre-core: {text}", file=sys.stderr)
 
 
 def _show_warning(
@@ -116,4 +137,4 @@ def _show_warning(
     file: TextIO | None = None,
     line: str | None = None,
 ) -> None:
-    print(f"mre-core: warning: {one_line(str(message))}", file=sys.stderr)
+    _say(f"warning: {one_line(str(message))}")

@@ -137,7 +137,7 @@ def check_archive(path: Path) -> None:
     try:
         with zipfile.ZipFile(path) as archive:
             size = sum(member.file_size for member in archive.infolist())
-    except zipfile.BadZipFile as error:
+    except Exception as error:  # beside its own, zipfile lets pass what damaged names and numbers cause
         raise InputError(f"cannot be read: {error}", file=str(path), wanted="a whole file") from None
     if size > MOST_UNPACKED:
         wanted = f"at most {MOST_UNPACKED / 2**20:.0f} MiB"

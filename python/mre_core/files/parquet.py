@@ -1,15 +1,18 @@
 """Parquet: one table; the unit of a column may stand in the metadata of its field."""
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, Final
 
-from ..errors import InputError
+from ..errors import InputError, shown
 from .arrays import readable
 from .limits import check_values
 from .options import ReadOptions
 from .table import MemoryTable, NoTableError, Table, with_unit
 
 _UNIT_KEYS: Final = (b"unit", b"units", b"Unit", b"Units")
+_ROWS: Final = 1 << 18
+"""Rows that are read together."""
 
 
 def read(path: Path, options: ReadOptions) -> list[Table]:
@@ -20,16 +23,19 @@ def read(path: Path, options: ReadOptions) -> list[Table]:
 
     try:
         # Text stays as a dictionary: a file of some kB can repeat a long one a million times.
-        texts = [field.name for field in parquet.read_schema(path) if _is_text(arrow, field.type)]
+        schema = parquet.read_schema(path)
+        texts = [field.name for field in schema if _is_text(arrow, field.type)]
+        nested = [field.name for field in schema if arrow.types.is_nested(field.type)]
+        flat = [name for name in schema.names if name not in nested] if nested else None
         with parquet.ParquetFile(path, read_dictionary=texts) as opened:
-            check_values(_count(opened.metadata), file)
-            table = opened.read()
+            batches = list(_batches(opened, flat, file))
     except InputError:
         raise
     except (arrow.ArrowException, OSError, ValueError) as error:  # also names that are no text
         raise InputError(f"cannot be read: {error}", file=file, wanted="a whole Parquet file") from None
-    if not table.num_rows:
+    if not batches:
         raise NoTableError("has no rows", file=file, wanted="rows of numbers")
+    table = arrow.Table.from_batches(batches)
     columns: dict[str, Any] = {}
     for field, column in zip(table.schema, table.columns, strict=True):
         header = with_unit(field.name, _unit(field.metadata))
@@ -38,7 +44,8 @@ def read(path: Path, options: ReadOptions) -> list[Table]:
                 f"has the column '{header}' twice", file=file, wanted="a different name for each"
             )
         columns.update([readable(header, column.to_numpy())])
-    return [MemoryTable(file, columns, notes=["Parquet"])]
+    notes = [f"column {shown(name)} holds lists or records, which are not read" for name in nested]
+    return [MemoryTable(file, columns, notes=["Parquet", *notes])]
 
 
 def _is_text(arrow: Any, kind: Any) -> bool:
@@ -46,11 +53,17 @@ def _is_text(arrow: Any, kind: Any) -> bool:
     return any(test(kind) for test in (types.is_string, types.is_large_string, types.is_binary))
 
 
-def _count(metadata: Any) -> int:
-    """Values in all columns, those in lists included."""
-    groups = [metadata.row_group(i) for i in range(metadata.num_row_groups)]
-    counts = [group.column(j).num_values for group in groups for j in range(group.num_columns)]
-    return int(max(sum(counts), metadata.num_rows * metadata.num_columns))
+def _batches(opened: Any, columns: list[str] | None, file: str) -> Iterator[Any]:
+    """Read some rows at a time: what the file says of its size need not be true.
+
+    What it says of the parts of a column is not asked for: where that is damaged, asking ends the process.
+    """
+    check_values(opened.metadata.num_rows * opened.metadata.num_columns, file)
+    count = 0
+    for batch in opened.iter_batches(_ROWS, columns=columns):
+        count += batch.num_rows * batch.num_columns
+        check_values(count, file)
+        yield batch
 
 
 def _unit(metadata: Any) -> object:

@@ -8,7 +8,7 @@ use pyo3::types::{PyDict, PyList};
 use crate::array::{matrix, vector};
 use crate::error::{setting, to_python};
 use crate::problem::Problem;
-use crate::run::in_pool;
+use crate::run::{Link, in_pool};
 
 /// Name, unit, value, standard error, low, high, determined.
 type Row = (String, &'static str, f64, Option<f64>, Option<f64>, Option<f64>, bool);
@@ -32,7 +32,7 @@ pub(crate) fn fit_uncertainty<'py>(
     level: f64,
 ) -> PyResult<Bound<'py, PyDict>> {
     let values = vector("x", x)?;
-    let job = |_: &_| uncertainty::estimate(&problem.inner, &values, level);
+    let job = |link: &Link| uncertainty::estimate(&problem.inner, &values, level, link.cancel());
     let found = in_pool(py, Some(1), None, true, job)?.0.map_err(to_python)?;
     let d = values.len();
     let dict = PyDict::new(py);
@@ -72,7 +72,7 @@ pub(crate) fn fit_profile<'py>(
     threads: Option<i64>,
 ) -> PyResult<Vec<ProfileRow<'py>>> {
     let values = vector("x", x)?;
-    let job = |link: &crate::run::Link| uncertainty::profile(&problem.inner, &values, level, link.cancel());
+    let job = |link: &Link| uncertainty::profile(&problem.inner, &values, level, link.cancel());
     let found = in_pool(py, threads, None, true, job)?.0.map_err(to_python)?;
     found
         .into_iter()
@@ -98,9 +98,8 @@ pub(crate) fn fit_bootstrap<'py>(
     let values = vector("x", x)?;
     let count = usize::try_from(replicates)
         .map_err(|_| setting("replicates", replicates, "a whole number of at least 2"))?;
-    let job = |link: &crate::run::Link| {
-        uncertainty::bootstrap(&problem.inner, &values, count, level, seed, link.cancel())
-    };
+    let job =
+        |link: &Link| uncertainty::bootstrap(&problem.inner, &values, count, level, seed, link.cancel());
     let found = in_pool(py, threads, None, true, job)?.0.map_err(to_python)?;
     let rows = matrix(py, &found.rows, found.names.len())?;
     Ok((found.names, rows, found.intervals, found.blocks))

@@ -1,6 +1,7 @@
 //! The one error type: what is wrong, where, which value, and what was wanted.
 
 use std::fmt::Display;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use thiserror::Error;
 
@@ -64,9 +65,17 @@ pub enum Error {
         /// What is allowed.
         wanted: String,
     },
+    /// The caller asked to stop.
+    #[error("stopped before it was done")]
+    Stopped,
 }
 
 impl Error {
+    /// Nothing, until the caller has asked to stop.
+    pub(crate) fn if_stopped(cancel: &AtomicBool) -> Result<()> {
+        if cancel.load(Ordering::Relaxed) { Err(Self::Stopped) } else { Ok(()) }
+    }
+
     /// A setting that is not allowed.
     pub fn setting(name: impl Into<String>, value: impl Display, wanted: impl Into<String>) -> Self {
         Self::Setting { name: name.into(), value: format!("{value}"), wanted: wanted.into() }

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use common::{Bounds, Trial, fitness, problem, with_threads};
+use mre::error::Error;
 use mre::fit::certified::{certificate, exact};
 use mre::fit::{self, hybrid};
 use mre::fitness::{Problem, Stream, Weights};
@@ -135,11 +136,20 @@ fn an_uncertainty_needs_samples() {
     let (never, x) = (AtomicBool::new(false), exact(&problem).unwrap().values);
     let wanted = "problem is 5000 samples streamed, none of which is kept: \
                   an uncertainty needs a problem of recordings";
-    assert_eq!(estimate(&problem, &x, 0.95).unwrap_err().to_string(), wanted);
+    assert_eq!(estimate(&problem, &x, 0.95, &never).unwrap_err().to_string(), wanted);
     assert_eq!(profile(&problem, &x, 0.95, &never).unwrap_err().to_string(), wanted);
     assert_eq!(bootstrap(&problem, &x, 10, 0.95, 1, &never).unwrap_err().to_string(), wanted);
     let whole = common::problem("sinh", std::slice::from_ref(&recording), &[], &Weights::Samples);
-    assert_eq!(estimate(&whole, &x, 0.95).unwrap().parameters.len(), 5);
+    assert_eq!(estimate(&whole, &x, 0.95, &never).unwrap().parameters.len(), 5);
+}
+
+#[test]
+fn an_uncertainty_is_stopped() {
+    let whole = common::problem("sinh", &[recording(5_000)], &[], &Weights::Samples);
+    let (now, x) = (AtomicBool::new(true), exact(&whole).unwrap().values);
+    assert_eq!(estimate(&whole, &x, 0.95, &now).unwrap_err(), Error::Stopped);
+    assert_eq!(profile(&whole, &x, 0.95, &now).unwrap_err(), Error::Stopped);
+    assert_eq!(bootstrap(&whole, &x, 10, 0.95, 1, &now).unwrap_err(), Error::Stopped);
 }
 
 #[test]

@@ -83,6 +83,9 @@ impl<'a> Projection<'a> {
                     return vec![f64::NAN; block.len()];
                 }
                 let grams = self.lane_grams(block);
+                if self.cancelled() {
+                    return vec![f64::NAN; block.len()];
+                }
                 block.iter().zip(grams).map(|(row, gram)| self.best(row, &gram).1).collect::<Vec<_>>()
             })
             .collect();
@@ -187,6 +190,9 @@ impl<'a> Projection<'a> {
         for ((recording, (plan, fixed)), weight) in
             self.problem.recordings().iter().zip(&self.lanes).zip(self.problem.weights())
         {
+            if self.cancelled() {
+                break; // what there is so far means nothing
+            }
             let sums = products(recording, plan, &shapes);
             for (l, gram) in grams.iter_mut().enumerate() {
                 *gram += fixed * *weight;

@@ -73,12 +73,12 @@ impl Problem {
         let row = |i: usize| &rows[i * d..(i + 1) * d];
         let one = |block: &[usize]| {
             let mut total = [0.0; LANES];
-            if cancel.load(Ordering::Relaxed) {
-                return [f64::NAN; LANES];
-            }
             let rows: [&[f64]; LANES] = std::array::from_fn(|l| row(block[l.min(block.len() - 1)]));
             let mut sums = [0.0; LANES];
             for (kernel, weight) in kernels.iter().zip(&self.weights) {
+                if cancel.load(Ordering::Relaxed) {
+                    return [f64::NAN; LANES];
+                }
                 kernel.sums_of_squares(&rows[..block.len()], &mut sums[..block.len()]);
                 for (total, sum) in total.iter_mut().zip(&sums) {
                     *total += weight * sum;

@@ -95,7 +95,8 @@ impl Lanes {
             for l in 0..LANES {
                 let dv = (v1 - v0) / count[l];
                 start[l] = v0 + dv * done;
-                end[l] = start[l] + dv;
+                // One that needs none ends at the sample to the bit, as it does beside others like it.
+                end[l] = if count[l] > 1.0 { start[l] + dv } else { v1 };
                 step[l] = h / count[l];
             }
             let next = rk4::<FUSED, P, LANES>(w, (&start, &end), &step, &self.shapes);

@@ -56,7 +56,7 @@ pub fn bootstrap(
     if !(2..=MOST).contains(&replicates) {
         return Err(Error::setting("replicates", replicates, format!("a whole number from 2 to {MOST}")));
     }
-    let local = Local::new(problem, values)?;
+    let local = Local::new(problem, values, cancel)?;
     let derived = Derived::new(problem)?;
     let sources: Vec<Source> = (0..problem.recordings().len()).map(|r| Source::new(&local, r)).collect();
     let rows: Result<Vec<Vec<f64>>> = (0..replicates)

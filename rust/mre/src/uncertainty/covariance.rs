@@ -5,9 +5,12 @@
 //! The estimated V makes the variance of a parameter uncertain: its degrees of freedom follow from the
 //! covariance of the autoregression (Satterthwaite 1946, <https://doi.org/10.2307/3002019>).
 
+use std::sync::atomic::AtomicBool;
+
 use nalgebra::{DMatrix, DVector};
 
 use super::noise::Noise;
+use crate::error::{Error, Result};
 
 /// Most steps of the correction of the noise.
 const CORRECTIONS: usize = 20;
@@ -96,24 +99,36 @@ impl Tangents {
     }
 
     /// Noise of every recording from the residuals of the fit.
-    pub(super) fn noise(&self, residuals: &[Vec<f64>], rates: &[f64]) -> Vec<Noise> {
+    ///
+    /// # Errors
+    /// [`Error::Stopped`] soon after `cancel` is set.
+    pub(super) fn noise(
+        &self,
+        residuals: &[Vec<f64>],
+        rates: &[f64],
+        cancel: &AtomicBool,
+    ) -> Result<Vec<Noise>> {
         let mut noise: Vec<Noise> =
             residuals.iter().zip(rates).map(|(e, rate)| Noise::of(e, *rate)).collect();
         let found: Vec<Vec<f64>> = noise.iter().zip(residuals).map(|(n, e)| n.products(e)).collect();
         for _ in 0..CORRECTIONS {
+            Error::if_stopped(cancel)?;
             let spread = self.spread(&noise, &self.colour(&noise));
             let better: Vec<Noise> = noise
                 .iter()
                 .enumerate()
-                .map(|(r, before)| before.corrected(&found[r], &self.bases[r], self.weights[r], &spread))
-                .collect();
+                .map(|(r, before)| {
+                    Error::if_stopped(cancel)?;
+                    Ok(before.corrected(&found[r], &self.bases[r], self.weights[r], &spread))
+                })
+                .collect::<Result<_>>()?;
             let settled = better.iter().zip(&noise).all(|(now, before)| now.is_near(before));
             noise = better;
             if settled {
                 break;
             }
         }
-        noise
+        Ok(noise)
     }
 
     fn colour(&self, noise: &[Noise]) -> Vec<DMatrix<f64>> {
@@ -146,27 +161,31 @@ impl Tangents {
     }
 
     /// Covariance of the parameters for noise that is known.
-    pub(super) fn covariance(&self, noise: &[Noise]) -> Covariance {
+    ///
+    /// # Errors
+    /// [`Error::Stopped`] soon after `cancel` is set.
+    pub(super) fn covariance(&self, noise: &[Noise], cancel: &AtomicBool) -> Result<Covariance> {
         let coloured = self.colour(noise);
         let k = self.len();
         let parts = coloured.iter().zip(noise).zip(&self.weights).zip(&self.bases);
         let parts = parts
             .map(|(((u, noise), weight), basis)| {
+                Error::if_stopped(cancel)?;
                 let scale = noise.variance * weight;
                 // The fit takes one sample a parameter, shared by the recordings.
                 let taken = basis.norm_squared();
                 let samples = (basis.nrows() as f64 - taken).max(1.0);
-                Part {
+                Ok(Part {
                     spread: u.tr_mul(u) * scale,
                     sensitivity: noise.sensitivity(u).into_iter().map(|s| s * (2.0 * scale)).collect(),
                     coefficients: noise.coefficient_covariance(samples),
                     samples,
-                }
+                })
             })
-            .collect::<Vec<_>>();
+            .collect::<Result<Vec<_>>>()?;
         let spread = parts.iter().fold(DMatrix::zeros(k, k), |sum, part| sum + &part.spread);
         let map = self.map();
-        Covariance { matrix: &map * spread * map.transpose(), naive: &map * map.transpose(), map, parts }
+        Ok(Covariance { matrix: &map * spread * map.transpose(), naive: &map * map.transpose(), map, parts })
     }
 }
 

@@ -1,5 +1,7 @@
 //! A fit with what its uncertainty follows from.
 
+use std::sync::atomic::AtomicBool;
+
 use nalgebra::DMatrix;
 
 use super::covariance::Tangents;
@@ -21,12 +23,13 @@ pub(super) struct Local<'a> {
     pub(super) free: Vec<usize>,
     pub(super) tangents: Tangents,
     pub(super) noise: Vec<Noise>,
+    cancel: &'a AtomicBool,
     /// Weighted rms of the force about its mean, N.
     pub(super) force: f64,
 }
 
 impl<'a> Local<'a> {
-    pub(super) fn new(problem: &'a Problem, values: &'a [f64]) -> Result<Self> {
+    pub(super) fn new(problem: &'a Problem, values: &'a [f64], cancel: &'a AtomicBool) -> Result<Self> {
         check(problem, values)?;
         let (law, model) = (problem.law(), problem.model());
         let mut residuals = Vec::new();
@@ -38,7 +41,7 @@ impl<'a> Local<'a> {
             first += weight * measured.iter().sum::<f64>();
             second += weight * measured.iter().map(|f| f * f).sum::<f64>();
             residuals.push(measured.iter().zip(&found).map(|(m, f)| m - f).collect::<Vec<f64>>());
-            columns.push(tangents(law, model, recording, values));
+            columns.push(tangents(law, model, recording, values, cancel)?);
         }
         let free: Vec<usize> =
             (0..values.len()).filter(|j| !fixed(problem, *j) && matters(&columns, *j)).collect();
@@ -48,22 +51,23 @@ impl<'a> Local<'a> {
             Error::setting("number of samples", text, "more samples than parameters, and a finite force")
         })?;
         let rates: Vec<f64> = problem.recordings().iter().map(|r| r.sampling_rate()).collect();
-        let noise = tangents.noise(&residuals, &rates);
-        Ok(Self { problem, values, free, tangents, noise, force: (second - first * first).max(0.0).sqrt() })
+        let noise = tangents.noise(&residuals, &rates, cancel)?;
+        let force = (second - first * first).max(0.0).sqrt();
+        Ok(Self { problem, values, free, tangents, noise, cancel, force })
     }
 
     /// Standard errors of the free parameters, and those that would matter little, if the same motion
     /// had another amplitude.
     pub(super) fn at_amplitude(&self, times: f64) -> Option<Vec<(f64, f64)>> {
         let (law, model) = (self.problem.law(), self.problem.model());
-        let columns: Vec<Vec<Vec<f64>>> = self
+        let columns: Result<Vec<Vec<Vec<f64>>>> = self
             .problem
             .recordings()
             .iter()
-            .map(|r| tangents(law, model, &r.scaled(times), self.values))
+            .map(|r| tangents(law, model, &r.scaled(times), self.values, self.cancel))
             .collect();
-        let tangents = factor(&columns, &self.free, self.problem.weights())?;
-        let variances = tangents.covariance(&self.noise).matrix.diagonal();
+        let tangents = factor(&columns.ok()?, &self.free, self.problem.weights())?;
+        let variances = tangents.covariance(&self.noise, self.cancel).ok()?.matrix.diagonal();
         let little = |length: &f64| LITTLE * times * self.force / length;
         Some(variances.iter().map(|v| v.sqrt()).zip(tangents.lengths().iter().map(little)).collect())
     }

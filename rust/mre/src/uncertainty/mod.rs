@@ -17,6 +17,8 @@ mod student;
 mod tangent;
 mod words;
 
+use std::sync::atomic::AtomicBool;
+
 use crate::error::{Error, Result};
 use crate::fitness::Problem;
 use derived::Derived;
@@ -73,18 +75,21 @@ pub struct Uncertainty {
 /// least squares under noise that is an autoregression in each recording.
 ///
 /// # Errors
-/// A level outside (0, 1), values that cannot be simulated, fewer samples than parameters, or a problem
-/// whose samples were streamed: the noise follows from residuals that it does not have.
-pub fn estimate(problem: &Problem, values: &[f64], level: f64) -> Result<Uncertainty> {
+/// A level outside (0, 1), values that cannot be simulated, fewer samples than parameters, a problem
+/// whose samples were streamed (the noise follows from residuals that it does not have), or
+/// [`Error::Stopped`] soon after `cancel` is set.
+pub fn estimate(problem: &Problem, values: &[f64], level: f64, cancel: &AtomicBool) -> Result<Uncertainty> {
     check_level(level)?;
-    let local = Local::new(problem, values)?;
-    let covariance = local.tangents.covariance(&local.noise);
+    let local = Local::new(problem, values, cancel)?;
+    let covariance = local.tangents.covariance(&local.noise, cancel)?;
     let derived = Derived::new(problem)?;
     let correlation = local.correlation(&covariance.matrix);
     let parameters = parameters(&local, &covariance, &correlation, level);
     let derived = combinations(&local, &covariance, &derived, level);
     let cycle = Cycle::of(problem);
+    Error::if_stopped(cancel)?;
     let words = words::words(&local, &parameters, &derived, cycle);
+    Error::if_stopped(cancel)?;
     Ok(Uncertainty {
         level,
         correlation,

@@ -45,8 +45,8 @@ pub struct Profile {
 /// As [`super::estimate`].
 pub fn profile(problem: &Problem, values: &[f64], level: f64, cancel: &AtomicBool) -> Result<Vec<Profile>> {
     check_level(level)?;
-    let local = Local::new(problem, values)?;
-    let covariance = local.tangents.covariance(&local.noise);
+    let local = Local::new(problem, values, cancel)?;
+    let covariance = local.tangents.covariance(&local.noise, cancel)?;
     let best = cost(problem, values);
     (0..local.free.len())
         .into_par_iter()

@@ -1,5 +1,8 @@
 //! Derivatives of the force by the parameters.
 
+use std::sync::atomic::AtomicBool;
+
+use crate::error::{Error, Result};
 use crate::fitness::Scratch;
 use crate::law::Law;
 use crate::model::Model;
@@ -43,16 +46,26 @@ pub(super) fn force(law: &Law, model: &Model, recording: &Recording, values: &[f
 
 /// Derivative of the force over the scored samples by every parameter: coefficients are exact, shapes
 /// by differences.
-pub(super) fn tangents(law: &Law, model: &Model, recording: &Recording, values: &[f64]) -> Vec<Vec<f64>> {
+///
+/// # Errors
+/// [`Error::Stopped`] soon after `cancel` is set.
+pub(super) fn tangents(
+    law: &Law,
+    model: &Model,
+    recording: &Recording,
+    values: &[f64],
+    cancel: &AtomicBool,
+) -> Result<Vec<Vec<f64>>> {
     let mut columns = law.columns(model, recording, values).into_iter();
     let shapes = law.shapes(model);
     (0..values.len())
         .map(|j| {
+            Error::if_stopped(cancel)?;
             if shapes[j] {
                 let size = if values[j] == 0.0 { 1.0 } else { values[j].abs() };
-                difference(values, j, size, |moved| force(law, model, recording, moved))
+                Ok(difference(values, j, size, |moved| force(law, model, recording, moved)))
             } else {
-                columns.next().unwrap_or_default()[recording.scored()].to_vec()
+                Ok(columns.next().unwrap_or_default()[recording.scored()].to_vec())
             }
         })
         .collect()

@@ -1,0 +1,1 @@
+"""The wheel in empty environments, as somebody would install it."""
