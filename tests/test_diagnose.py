@@ -200,7 +200,7 @@ def test_names_are_made_different() -> None:
 
 
 def test_one_recording_is_enough() -> None:
-    found = mre_core.diagnose(record(1.0, 4.0), seed=1)
+    found = mre_core.diagnose(record(1.0, 4.0, seed=1), seed=1)
     assert found.verdict == "adequate"
     check_contract(found.to_dict())
 

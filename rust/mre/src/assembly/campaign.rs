@@ -35,7 +35,7 @@ impl Campaign {
             }
             evenly_sampled(recording)?;
         }
-        let recordings: Vec<Arc<Recording>> = recordings.par_iter().map(|r| of_one_motion(r)).collect();
+        let recordings: Vec<Arc<Recording>> = recordings.into_par_iter().map(|r| of_one_motion(&r)).collect();
         let sizes = Sizes::of(recordings.iter().map(AsRef::as_ref));
         Ok(Self::with_sizes(recordings, sizes))
     }

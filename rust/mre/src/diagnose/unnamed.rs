@@ -17,7 +17,7 @@ type Term = fn(f64, f64) -> f64;
 
 /// Terms of displacement and velocity together, of unit size, and whether they are odd. Even ones have a slow part,
 /// which slow noise has too: a test of them would find that.
-const TERMS: [(fn(f64, f64) -> f64, bool); 4] =
+const TERMS: [(Term, bool); 4] =
     [(|x, v| x * v, false), (|x, v| x * x * v, true), (|x, v| x.abs() * v, true), (|x, v| x * v * v, true)];
 
 /// A force at a sample of a recording.
