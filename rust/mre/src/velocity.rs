@@ -169,3 +169,46 @@ impl Local {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 5 mm at 1 Hz on 200 Hz, with noise of this size in mm that repeats after 101 samples.
+    fn shaken(size: f64) -> [Vec<f64>; 4] {
+        let turn = std::f64::consts::TAU;
+        let time: Vec<f64> = (0..2000).map(|i| f64::from(i) / 200.0).collect();
+        let truth: Vec<f64> = time.iter().map(|t| 5.0 * (turn * t).sin()).collect();
+        let velocity = time.iter().map(|t| 5.0 * turn * (turn * t).cos()).collect();
+        let noise = |i: usize| size * (f64::from((i * 37 % 101) as u32) / 50.0 - 1.0);
+        let shown = truth.iter().enumerate().map(|(i, x)| x + noise(i)).collect();
+        [time, shown, velocity, truth]
+    }
+
+    fn rms(a: &[f64], b: &[f64]) -> f64 {
+        (a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>() / a.len() as f64).sqrt()
+    }
+
+    #[test]
+    fn noise_that_the_velocity_does_not_share_is_taken_off() {
+        let [time, shown, velocity, truth] = shaken(0.01);
+        let found = without_noise(&time, &shown, &velocity);
+        assert!(rms(&found, &truth) < 0.2 * rms(&shown, &truth));
+    }
+
+    #[test]
+    fn an_offset_and_a_motion_that_the_velocity_misses_stay() {
+        let [time, shown, velocity, truth] = shaken(0.01);
+        // A velocity sensor of 3 % too much, and a zero that is elsewhere.
+        let much: Vec<f64> = velocity.iter().map(|v| 1.03 * v).collect();
+        let apart: Vec<f64> = shown.iter().map(|x| x + 2.0).collect();
+        let wanted: Vec<f64> = truth.iter().map(|x| x + 2.0).collect();
+        assert!(rms(&without_noise(&time, &apart, &much), &wanted) < 0.5 * rms(&shown, &truth));
+    }
+
+    #[test]
+    fn a_displacement_without_noise_stays_to_the_bit() {
+        let [time, shown, velocity, _] = shaken(0.0);
+        assert_eq!(without_noise(&time, &shown, &velocity), shown);
+    }
+}

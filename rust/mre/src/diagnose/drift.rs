@@ -83,3 +83,45 @@ fn excess(waves: &[Vec<f64>]) -> f64 {
     };
     waves.iter().zip(&heights).map(over).sum()
 }
+
+#[cfg(test)]
+mod tests {
+    use rand_chacha::ChaCha8Rng;
+    use rand_core::SeedableRng;
+
+    use super::super::distribution::normal;
+    use super::*;
+
+    /// Noise of seven recordings with a correlation from sample to sample.
+    fn recordings(pole: f64, seed: u64) -> Vec<Vec<f64>> {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        (0..7)
+            .map(|_| {
+                let mut state = 0.0;
+                let mut next = || {
+                    state = pole * state + normal(&mut random);
+                    state
+                };
+                (0..3400).map(|_| next()).collect::<Vec<f64>>().split_off(2000)
+            })
+            .collect()
+    }
+
+    #[test]
+    fn slow_noise_is_no_drift() {
+        for pole in [0.0, 0.97, 0.995] {
+            let alarms = (0..200).filter(|seed| chance(&recordings(pole, *seed)) < 0.01).count();
+            assert!(alarms <= 8, "{alarms} of 200 at {pole}");
+        }
+    }
+
+    #[test]
+    fn a_line_as_large_as_white_noise_is_a_drift() {
+        let mut drifting = recordings(0.0, 1);
+        for residual in &mut drifting {
+            let n = residual.len() as f64;
+            residual.iter_mut().enumerate().for_each(|(i, e)| *e += 3.0 * (i as f64 / n - 0.5));
+        }
+        assert!(chance(&drifting) < 1e-6);
+    }
+}

@@ -1,0 +1,57 @@
+"""What no effect of the catalogue has gets no name, and noise of the displacement is no physics."""
+
+import mre_core
+import numpy as np
+import pytest
+from mre_core import Diagnosis, Recording, simulate
+from rig import made_of
+
+RATE = 200.0
+SPRING = made_of("kelvin_voigt", {"c0": 0.3, "k0": 6.0, "F0": 0.5})
+
+
+def moved(frequency: float, amplitude: float) -> Recording:
+    """A sine that swells for two seconds from rest."""
+    t = np.arange(0.0, 10.0, 1 / RATE)
+    u = np.clip(t / 2.0, 0.0, 1.0)
+    swell, growth = u**2 * (3 - 2 * u), 3 * u * (1 - u)
+    turn = 2 * np.pi * frequency
+    v = amplitude * (growth * np.sin(turn * t) + swell * turn * np.cos(turn * t))
+    return Recording(t, amplitude * swell * np.sin(turn * t), np.zeros_like(t), velocity=v)
+
+
+MOTIONS = [moved(f, a) for f, a in ((0.5, 4.0), (1.0, 2.0), (1.0, 6.0), (2.0, 4.0), (3.0, 2.0))]
+
+
+def slow(rng: np.random.Generator, count: int) -> np.ndarray:
+    """Noise of unit size with a correlation of 0.97 from sample to sample."""
+    noise, shocks = np.zeros(count + 400), rng.normal(size=count + 400)
+    for i in range(1, len(noise)):
+        noise[i] = 0.97 * noise[i - 1] + np.sqrt(1 - 0.97**2) * shocks[i]
+    return noise[400:]
+
+
+def diagnosed(size: float, *, shaken: float = 0.0, coloured: bool = False) -> Diagnosis:
+    """A spring and a dashpot, and a damping that grows with the square of the displacement."""
+    recordings = []
+    for seed, motion in enumerate(MOTIONS):
+        rng = np.random.default_rng(seed)
+        force = simulate(SPRING, motion) + size * motion.displacement**2 * motion.velocity
+        count = len(force)
+        noise = slow(rng, count) if coloured else rng.normal(size=count)
+        force = force + 0.2 * noise
+        shown = motion.displacement + shaken * rng.normal(size=count)
+        recordings.append(Recording(motion.time, shown, force, velocity=motion.velocity, name=f"r{seed}"))
+    return mre_core.diagnose(recordings, "kelvin_voigt", seed=1)
+
+
+@pytest.mark.parametrize("size", [0.003, 0.01])
+def test_a_viscosity_that_grows_with_the_displacement_gets_no_name(size: float) -> None:
+    found = diagnosed(size)
+    assert found.verdict == "unexplained", [e.id for e in found.effects]
+    assert found.unknown is not None
+    assert found.unknown["depends_on"][0]["on"] == "state"
+
+
+def test_noise_of_the_displacement_is_taken_off() -> None:
+    assert diagnosed(0.0, shaken=0.003, coloured=True).verdict == "adequate"
