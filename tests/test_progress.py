@@ -34,6 +34,7 @@ def test_lines_of_work_of_unknown_length(
         while not (err := capsys.readouterr().err):
             time.sleep(0.01)
     assert err.startswith("mre-core: diagnosing for ")
+    capsys.readouterr()  # more lines may have come until it ended
     with progress.spinner("diagnosing", quiet=True):
         time.sleep(0.05)
     assert "diagnosing" not in capsys.readouterr().err

@@ -112,7 +112,7 @@ def test_wrong_files_are_named(tmp_path: Path) -> None:
 
     assert "no column for velocity" in text("time_s,displacement_mm,force_N\n0,1,2\n")
     assert "no column for force" in text("time_s,displacement_mm,velocity_mm_s\n0,1,2\n")
-    assert "no header and no data" in text("\n# only this\n")
+    assert "no rows of numbers" in text("\n# only this\n")
     assert "0xff is not UTF-8" in text(b"time_s,displacement_mm,velocity_mm_s,force_N\n0,1,2,\xff\n")
     assert "rows is 0" in text("x", rows=0)
     with pytest.raises(InputError, match="cannot be read: No such file"):
