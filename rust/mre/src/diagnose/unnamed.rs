@@ -54,7 +54,7 @@ pub(super) fn best(null: &Null, rows: usize) -> Unnamed {
             let (x, v) = state(i, scene);
             term(x, v)
         };
-        let gain = gain(null, &[&of]);
+        let [gain, _] = gains(null, &[&of]);
         most = most.max(gain - cost);
         if odd {
             heard(gain);
@@ -66,21 +66,23 @@ pub(super) fn best(null: &Null, rows: usize) -> Unnamed {
         let sine = |i: usize, scene: &Scene| (wave * state(i, scene).0).sin();
         let cosine = |i: usize, scene: &Scene| (wave * state(i, scene).0).cos();
         // The length of the wave is a parameter too.
-        most = most.max(gain(null, &[&sine, &cosine]) - 3.0 * cost);
-        heard(gain(null, &[&sine]));
+        let [alone, both] = gains(null, &[&sine, &cosine]);
+        most = most.max(both - 3.0 * cost);
+        heard(alone);
     }
     Unnamed { p_value: (smallest * tests).min(1.0), improvement: most }
 }
 
-/// Squared standard deviations that one or two columns take off.
-fn gain(null: &Null, columns: &[Force]) -> f64 {
+/// Squared standard deviations that the first column takes off, and all of them; zero where the projection leaves
+/// none of one.
+fn gains(null: &Null, columns: &[Force]) -> [f64; 2] {
     let (gram, right, squares) = null.project(columns.len(), |r| {
         let scene = null.scene(r);
         let of = |column: &Force| (0..scene.len()).map(|i| column(i, &scene)).collect();
         columns.iter().map(of).enumerate().collect()
     });
-    if (0..columns.len()).any(|i| gram[(i, i)] <= SMALLEST_SHARE * squares[i]) {
-        return 0.0;
-    }
-    gram.cholesky().map_or(0.0, |factor| right.dot(&factor.solve(&right)))
+    let left = |i: usize| gram[(i, i)] > SMALLEST_SHARE * squares[i];
+    let first = if left(0) { right[0].powi(2) / gram[(0, 0)] } else { 0.0 };
+    let all = (0..columns.len()).all(left).then(|| gram.clone().cholesky()).flatten();
+    [first, all.map_or(0.0, |factor| right.dot(&factor.solve(&right)))]
 }
