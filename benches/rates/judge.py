@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import mre_core
 import numpy as np
 from mre_core import Recording
-from mre_core.concealed import Campaign, make_campaign
+from mre_core.concealed import Campaign
 from plans import Trial
 
 
@@ -29,12 +29,12 @@ class Outcome:
     @property
     def right(self) -> bool:
         """Exactly the effects that are concealed."""
-        return sorted(self.named) == sorted(self.trial.effects)
+        return sorted(self.named) == sorted(self.trial.case.effects)
 
     @property
     def among(self) -> bool:
         """The first truth is named, or listed as not to be told from what is named."""
-        return set(self.trial.effects) <= {*self.named, *self.rivals}
+        return set(self.trial.case.effects) <= {*self.named, *self.rivals}
 
     @property
     def admitted(self) -> bool:
@@ -44,21 +44,11 @@ class Outcome:
 
 def run(trial: Trial) -> Outcome:
     """Simulate, diagnose on one thread, compare."""
-    made = make_campaign(
-        trial.effects or None,
-        trial.laws,
-        trial.base,
-        trial.strength,
-        trial.noise,
-        trial.seed,
-        samples=trial.samples,
-        velocity=trial.velocity,
-        displacement_noise=trial.displacement_noise,
-    )
+    made = trial.case.simulate()
     start = time.perf_counter()
     found = mre_core.diagnose(
         recordings_of(made),
-        trial.base,
+        trial.case.base,
         seed=1,
         false_alarm=trial.false_alarm,
         without=trial.without,

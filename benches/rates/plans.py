@@ -1,11 +1,12 @@
 """What is drawn for each experiment: campaigns with known answers, by a seed."""
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import cycle, islice
 
 import numpy as np
 from mre_core.concealed import BASES, effects, laws_of
+from mre_core.trial.case import Case
 
 STRENGTHS = (3.0, 1.0, 0.5)
 """What the effect leaves of the refitted base, over the noise, rms."""
@@ -13,6 +14,8 @@ WEAK = (0.25, 0.1, 0.05)
 EACH_OF_A_PAIR = 2.0
 NOISES = ("white", "ar60", "ar97")
 EVERY_NOISE = ("white", "ar60", "ar97", "ar995", "pink", "narrow", "mains", "student", "quantised")
+NOISE_SHARE = 0.01
+"""Of the force, rms."""
 NULL_SAMPLES = 10_000
 DISPLACEMENT_NOISE = 0.003
 """mm, on every third null."""
@@ -24,15 +27,7 @@ LEVEL = 0.01
 class Trial:
     """One diagnosis: what is concealed, and which effects the tool may not name."""
 
-    effects: tuple[str, ...]
-    laws: tuple[str, ...]
-    base: str
-    strength: float
-    noise: str
-    velocity: str
-    seed: int
-    samples: int | None = None
-    displacement_noise: float = 0.0
+    case: Case
     without: tuple[str, ...] = ()
     false_alarm: float = LEVEL
 
@@ -43,13 +38,19 @@ Draw = Callable[[np.random.Generator], Trial]
 
 def _trial(rng: np.random.Generator, ids: tuple[str, ...], laws: tuple[str, ...], strength: float) -> Trial:
     return Trial(
-        ids,
-        laws,
-        str(rng.choice(BASES)),
-        strength,
-        str(rng.choice(NOISES)),
-        str(rng.choice(["given", "given", "derived"])),
-        int(rng.integers(2**32)),
+        Case(
+            effects=ids,
+            laws=laws,
+            base=str(rng.choice(BASES)),
+            strength=strength,
+            noise=str(rng.choice(NOISES)),
+            velocity=str(rng.choice(["given", "given", "derived"])),
+            excitation=None,
+            samples=None,
+            noise_share=NOISE_SHARE,
+            displacement_noise=0.0,
+            seed=int(rng.integers(2**32)),
+        )
     )
 
 
@@ -77,7 +78,7 @@ def removed(rng: np.random.Generator) -> Iterator[Trial]:
     """Each effect in turn may not be named."""
     for strength, effect in _crossed(STRENGTHS[:2]):
         made = _trial(rng, (effect,), (laws_of(effect)[0],), strength)
-        yield Trial(**{**vars(made), "without": (effect,)})
+        yield replace(made, without=(effect,))
 
 
 def unknown(rng: np.random.Generator) -> Iterator[Trial]:
@@ -93,8 +94,8 @@ def nulls(rng: np.random.Generator) -> Iterator[Trial]:
     for place, noise in enumerate(cycle(EVERY_NOISE)):
         made = _trial(rng, (), (), 0.0)
         shaken = DISPLACEMENT_NOISE if (place // len(EVERY_NOISE)) % 3 == 2 else 0.0
-        changed = {"noise": noise, "samples": NULL_SAMPLES, "displacement_noise": shaken}
-        yield Trial(**{**vars(made), **changed})
+        null = replace(made.case, noise=noise, samples=NULL_SAMPLES, displacement_noise=shaken)
+        yield replace(made, case=null)
 
 
 def weak(rng: np.random.Generator) -> Iterator[Trial]:
@@ -103,7 +104,7 @@ def weak(rng: np.random.Generator) -> Iterator[Trial]:
         made = _trial(rng, (effect,), (laws_of(effect)[0],), strength)
         yield made
         ruled_out = tuple(name for name in NAMED if name != effect)
-        yield Trial(**{**vars(made), "without": ruled_out, "false_alarm": LEVEL / len(NAMED)})
+        yield replace(made, without=ruled_out, false_alarm=LEVEL / len(NAMED))
 
 
 def _crossed(strengths: tuple[float, ...]) -> Iterator[tuple[float, str]]:

@@ -32,14 +32,17 @@ def _by(found: Sequence[Outcome], key: Callable[[Outcome], object]) -> dict[obje
 
 def naming(found: Sequence[Outcome]) -> str:
     """Names right, by strength, and every case that is not right."""
-    groups = _by([o for o in found if o.reached], lambda o: o.trial.strength)
+    groups = _by([o for o in found if o.reached], lambda o: o.trial.case.strength)
     rows = [
         (
             f"{strength:g}",
             len(own),
             rate(own, lambda o: o.right),
             rate(own, lambda o: o.among),
-            rate(own, lambda o: bool(set(o.named) - set(o.trial.effects)) and o.verdict == "missing_physics"),
+            rate(
+                own,
+                lambda o: bool(set(o.named) - set(o.trial.case.effects)) and o.verdict == "missing_physics",
+            ),
             rate(own, lambda o: o.verdict == "adequate"),
             f"{np.median([o.error for o in own]):.2f}",
             f"{np.median([o.seconds for o in own]):.1f}",
@@ -49,7 +52,7 @@ def naming(found: Sequence[Outcome]) -> str:
     head = ("strength", "cases", "named right", "truth named or listed as indistinguishable")
     more = ("a wrong name as the whole answer", "nothing found", "model error / noise, median", "s, median")
     misses = Counter(
-        f"{' + '.join(o.trial.effects)}: {o.verdict}{', ' * bool(o.named)}{' + '.join(o.named)}"
+        f"{' + '.join(o.trial.case.effects)}: {o.verdict}{', ' * bool(o.named)}{' + '.join(o.named)}"
         for o in found
         if o.reached and not o.right
     )
@@ -69,7 +72,7 @@ def admission(found: Sequence[Outcome]) -> str:
     """What is said where the truth may not be named."""
 
     def key(o: Outcome) -> str:
-        return o.trial.effects[0] if o.trial.without else o.trial.laws[0]
+        return o.trial.case.effects[0] if o.trial.without else o.trial.case.laws[0]
 
     reached = [o for o in found if o.reached]
     groups = {"all": reached, **_by(reached, key)}
@@ -94,12 +97,12 @@ def nulls(found: Sequence[Outcome]) -> str:
 
     def of_the_noise(o: Outcome) -> bool:
         """A hum is there: to name it is right."""
-        return o.trial.noise == "mains" and set(o.named) == {"mains_interference"}
+        return o.trial.case.noise == "mains" and set(o.named) == {"mains_interference"}
 
     def false(o: Outcome) -> bool:
         return o.verdict != "adequate" and not of_the_noise(o)
 
-    groups = {"all": list(found), **_by(found, lambda o: o.trial.noise)}
+    groups = {"all": list(found), **_by(found, lambda o: o.trial.case.noise)}
     rows = []
     for what, own in groups.items():
         rows.append(
@@ -122,8 +125,8 @@ def power(found: Sequence[Outcome]) -> str:
     ours = [o for o in found if not o.trial.without]
     oracle = [o for o in found if o.trial.without]
     rows = []
-    for strength, own in sorted(_by(ours, lambda o: o.trial.strength).items(), key=str, reverse=True):
-        best = [o for o in oracle if o.trial.strength == strength]
+    for strength, own in sorted(_by(ours, lambda o: o.trial.case.strength).items(), key=str, reverse=True):
+        best = [o for o in oracle if o.trial.case.strength == strength]
         said = (rate(own, lambda o: o.verdict != "adequate"), rate(own, lambda o: o.among))
         rows.append((f"{strength:g}", len(own), rate(best, lambda o: bool(o.named)), *said))
     head = ("strength", "cases", "oracle detects", "ours says that something is missing")

@@ -25,7 +25,7 @@ class Case:
     strength: float
     noise: str
     velocity: str
-    excitation: str
+    excitation: str | None
     samples: int | None
     noise_share: float
     displacement_noise: float
