@@ -5,6 +5,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.polynomial import Chebyshev
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
@@ -55,16 +56,14 @@ def jittered(seed: int, rate: float, duration: float) -> Array:
     return times
 
 
-def local_cubic(time: Array, displacement: Array, half: int) -> Array:
-    """Derivative of the cubic fitted to 2 half + 1 samples; the windows at both ends are shifted inwards."""
+def local_slope(time: Array, displacement: Array, half: int) -> Array:
+    """Slope of the polynomial of degree 7 fitted to 2 half + 1 samples, shifted inwards at both ends."""
     n = len(time)
     v = np.empty(n)
     for i in range(n):
         first = min(max(0, i - half), n - 2 * half - 1)
         near = slice(first, first + 2 * half + 1)
-        u = time[near] - time[i]
-        reach = np.abs(u).max()
-        v[i] = np.polynomial.polynomial.polyfit(u / reach, displacement[near], 3)[1] / reach
+        v[i] = Chebyshev.fit(time[near], displacement[near], min(7, 2 * half - 1)).deriv()(time[i])
     return v
 
 

@@ -23,7 +23,7 @@ use crate::run::in_pool;
 /// force : array, shape (n,), or None
 ///     N; None for an excitation to simulate.
 /// velocity : array, shape (n,), optional
-///     mm/s; derived from the displacement where missing, by local cubics (`velocity_window` in s).
+///     mm/s; derived from the displacement where missing, by local polynomials (`velocity_window` in s).
 /// current, temperature : float or array, shape (n,), optional
 ///     A and degC.
 /// simulated : array, shape (n,), optional

@@ -1,7 +1,7 @@
 //! Velocity from displacement without errors-in-variables bias.
 //!
 //! A difference quotient of noisy displacement biases the damping coefficient towards zero, the more
-//! the faster the sampling. Here a cubic is fitted by least squares around every sample (Savitzky and
+//! the faster the sampling. Here a polynomial is fitted by least squares around every sample (Savitzky and
 //! Golay 1964, <https://doi.org/10.1021/ac60214a047>, extended to irregular times) and the length of
 //! its window is the one with the smallest generalised cross-validation error (Craven and Wahba 1979,
 //! <https://doi.org/10.1007/BF01404567>).
@@ -10,7 +10,15 @@
 
 use rayon::prelude::*;
 
-const TERMS: usize = 4;
+/// Coefficients of the polynomial. A cubic has to take a window so short, where motion is curved, that it lets four
+/// times as much noise into the velocity.
+const TERMS: usize = 8;
+/// Half window with more samples than coefficients.
+const NARROWEST: usize = TERMS / 2;
+/// Samples at a time.
+const LANES: usize = 8;
+type Square = nalgebra::SMatrix<f64, TERMS, TERMS>;
+type Column = nalgebra::SVector<f64, TERMS>;
 /// Samples over which the window is chosen; more add cost, not certainty.
 const TRIAL_SAMPLES: usize = 4_000;
 
@@ -85,7 +93,7 @@ fn smooth(time: &[f64], displacement: &[f64], widest: usize) -> Derived {
 fn best_half_width(time: &[f64], displacement: &[f64], widest: usize) -> usize {
     let n = time.len();
     let stride = n.div_ceil(TRIAL_SAMPLES);
-    let mut best = (f64::INFINITY, 2);
+    let mut best = (f64::INFINITY, 0);
     for half in candidates(((n - 1) / 2).min(widest)) {
         let score = cross_validation(time, displacement, half, stride);
         // A wider window wins ties: it carries less noise into the velocity.
@@ -100,7 +108,7 @@ fn best_half_width(time: &[f64], displacement: &[f64], widest: usize) -> usize {
 
 /// Half widths in samples, about a quarter apart.
 fn candidates(largest: usize) -> Vec<usize> {
-    let mut widths = vec![2_usize];
+    let mut widths = vec![NARROWEST.min(largest)];
     while let Some(&last) = widths.last() {
         let next = last + 1 + last / 4;
         if next > largest {
@@ -125,7 +133,7 @@ fn cross_validation(time: &[f64], displacement: &[f64], half: usize, stride: usi
     (squares / count) / (1.0 - leverage / count).powi(2)
 }
 
-/// Cubic fitted to the samples within a window around one of them.
+/// Polynomial fitted to the samples within a window around one of them.
 struct Local {
     value: f64,
     slope: f64,
@@ -138,27 +146,51 @@ impl Local {
         // At the ends the window is shifted, not shortened, so that the noise stays bounded.
         let start = i.saturating_sub(half).min(last.saturating_sub(2 * half));
         let stop = (start + 2 * half).min(last);
-        let scale = (time[stop] - time[i]).max(time[i] - time[start]);
-        let mut moments = [0.0; 2 * TERMS - 1];
-        let mut right = [0.0; TERMS];
-        for j in start..=stop {
-            let u = (time[j] - time[i]) / scale;
-            let mut power = 1.0;
-            for (k, moment) in moments.iter_mut().enumerate() {
-                *moment += power;
-                if k < TERMS {
-                    right[k] += power * (displacement[j] - displacement[i]);
+        let (centre, scale) = (0.5 * (time[start] + time[stop]), 0.5 * (time[stop] - time[start]));
+        let mut moments = [[0.0; LANES]; 2 * TERMS - 1];
+        let mut right = [[0.0; LANES]; TERMS];
+        for (t, x) in time[start..=stop].chunks(LANES).zip(displacement[start..=stop].chunks(LANES)) {
+            // Lanes without a sample stay zero through the recurrence.
+            let (mut place, mut rise, mut term) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+            for lane in 0..t.len() {
+                place[lane] = (t[lane] - centre) / scale;
+                rise[lane] = x[lane] - displacement[i];
+                term[lane] = 1.0;
+            }
+            let mut next = place;
+            for k in 0..2 * TERMS - 1 {
+                for lane in 0..LANES {
+                    moments[k][lane] += term[lane];
+                    if k < TERMS {
+                        right[k][lane] += term[lane] * rise[lane];
+                    }
+                    (term[lane], next[lane]) = (next[lane], 2.0 * place[lane] * next[lane] - term[lane]);
                 }
-                power *= u;
             }
         }
-        let matrix = nalgebra::Matrix4::from_fn(|r, c| moments[r + c]);
-        let rhs = nalgebra::Vector4::from(right);
+        let moments = moments.map(|lanes| lanes.iter().sum::<f64>());
+        let right = right.map(|lanes| lanes.iter().sum());
+        // A short recording has a lower degree: its other rows are those of the identity.
+        let terms = TERMS.min(stop - start);
+        let used = |column: [f64; TERMS]| Column::from_fn(|r, _| if r < terms { column[r] } else { 0.0 });
+        // T_r T_c = (T_(r+c) + T_|r-c|) / 2: one pass gives the whole matrix.
+        let matrix = Square::from_fn(|r, c| {
+            if r.max(c) < terms {
+                0.5 * (moments[r + c] + moments[r.abs_diff(c)])
+            } else {
+                f64::from(u8::from(r == c))
+            }
+        });
+        let place = (time[i] - centre) / scale;
+        let (here, rise) = (used(chebyshev(place)), used(slopes(place)));
         match matrix.cholesky() {
             Some(factor) => {
-                let solution = factor.solve(&rhs);
-                let leverage = factor.solve(&nalgebra::Vector4::new(1.0, 0.0, 0.0, 0.0))[0];
-                Self { value: displacement[i] + solution[0], slope: solution[1] / scale, leverage }
+                let found = factor.solve(&used(right));
+                Self {
+                    value: displacement[i] + found.dot(&here),
+                    slope: found.dot(&rise) / scale,
+                    leverage: factor.solve(&here).dot(&here),
+                }
             }
             // Times that nearly coincide: fall back to the chord of the window.
             None => Self {
@@ -168,6 +200,27 @@ impl Local {
             },
         }
     }
+}
+
+/// Chebyshev polynomials at u, of degree 0 to N - 1.
+fn chebyshev<const N: usize>(u: f64) -> [f64; N] {
+    let mut terms = [1.0; N];
+    terms[1] = u;
+    for k in 2..N {
+        terms[k] = 2.0 * u * terms[k - 1] - terms[k - 2];
+    }
+    terms
+}
+
+/// Their derivatives.
+fn slopes(u: f64) -> [f64; TERMS] {
+    let terms: [f64; TERMS] = chebyshev(u);
+    let mut found = [0.0; TERMS];
+    found[1] = 1.0;
+    for k in 2..TERMS {
+        found[k] = 2.0 * (terms[k - 1] + u * found[k - 1]) - found[k - 2];
+    }
+    found
 }
 
 #[cfg(test)]
