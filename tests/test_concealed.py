@@ -6,7 +6,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from mre_core.concealed import BASES, effects, laws_of, make_campaign
+from mre_core.concealed import (
+    BASES,
+    Excitation,
+    effects,
+    followed,
+    laws_of,
+    make_campaign,
+    steady_current,
+)
 from mre_core.concealed.bench import Bench, rms
 from mre_core.concealed.campaign import OWN_EXCITATION
 from mre_core.concealed.devices import drawn
@@ -140,6 +148,25 @@ def test_several_effects_rates_and_samples() -> None:
     assert sum(len(r.time) for r in campaign.recordings) == pytest.approx(20_000, abs=7)
     assert {round(1 / (r.time[1] - r.time[0])) for r in campaign.recordings} == {200, 512}
     assert all(r.velocity is None for r in campaign.recordings)
+
+
+def test_a_later_recording_follows_its_command_and_leaves_the_others_as_they_were() -> None:
+    times = np.arange(1000) / 200.0
+    command = 3.0 * np.sin(2.0 * np.pi * times) * np.clip(times, 0, 1) ** 3
+    later = Excitation("later", 200.0, len(times), followed(times, command), steady_current(1.0))
+    before = make_campaign("maxwell_relaxation", samples=7000)
+    after = make_campaign("maxwell_relaxation", samples=7000, also=[later])
+    assert after.effects == before.effects
+    assert after.unexplained_rms == before.unexplained_rms
+    *first, last = after.recordings
+    for one, same in zip(first, before.recordings, strict=True):
+        np.testing.assert_array_equal(one.force, same.force)
+    np.testing.assert_allclose(last.displacement, command, atol=1e-12)
+    assert last.velocity is not None
+    np.testing.assert_allclose(last.velocity[10:-10], np.gradient(command, times)[10:-10], atol=0.1)
+    # The branch of the concealed law relaxes there as well: its force is that of the same parameters.
+    bare = make_campaign(None, samples=7000, also=[later]).recordings[-1]
+    assert rms([last.truth - bare.truth]) > after.noise_rms
 
 
 def test_the_files_do_not_tell_the_truth(tmp_path: Path) -> None:

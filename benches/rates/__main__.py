@@ -8,8 +8,10 @@ Writes docs/proof/rates/EXPERIMENT.md. Seeds from 1000 on are for judging: each 
 import argparse
 from datetime import UTC, datetime
 from pathlib import Path
+from typing import Any
 
-from judge import Outcome, run
+import judge
+import resolve
 from mre_core.trial.plan import JUDGING
 from mre_core.trial.workers import spread
 from plans import PLANS, drawn
@@ -27,9 +29,10 @@ def main() -> None:
     given.add_argument("--workers", type=int)
     given.add_argument("--out", type=Path, default=OUT)
     options = given.parse_args()
-    found: list[Outcome] = []
+    found: list[Any] = []
+    run = resolve.run if options.experiment == "doubts" else judge.run
 
-    def take(outcome: Outcome) -> None:
+    def take(outcome: Any) -> None:
         found.append(outcome)
         if len(found) % 10 == 0:
             print(f"{len(found)} of {options.cases}", flush=True)

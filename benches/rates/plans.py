@@ -19,6 +19,8 @@ NOISE_SHARE = 0.01
 NULL_SAMPLES = 10_000
 DISPLACEMENT_NOISE = 0.003
 """mm, on every third null."""
+LITTLE_TOLD = ("twelve", "steady", "single_staircase", "earthquakes")
+"""Programmes of excitation that leave effects in doubt."""
 LEVEL = 0.01
 """Stated rate of false alarms."""
 
@@ -107,6 +109,16 @@ def weak(rng: np.random.Generator) -> Iterator[Trial]:
         yield replace(made, without=ruled_out, false_alarm=LEVEL / len(NAMED))
 
 
+def doubts(rng: np.random.Generator) -> Iterator[Trial]:
+    """Excitations that tell less, so that effects stay in doubt."""
+    tried = cycle(LITTLE_TOLD)
+    for strength, effect in _crossed(STRENGTHS[:2]):
+        made = _trial(rng, (effect,), (laws_of(effect)[0],), strength)
+        # Effects of the field, and creep, ask for excitations of their own.
+        own = effect.startswith("field") or effect == "creep"
+        yield made if own else replace(made, case=replace(made.case, excitation=next(tried)))
+
+
 def _crossed(strengths: tuple[float, ...]) -> Iterator[tuple[float, str]]:
     """Every effect at a strength, the strengths in turn; each effect meets every strength."""
     for turn in cycle(range(len(strengths))):
@@ -115,7 +127,7 @@ def _crossed(strengths: tuple[float, ...]) -> Iterator[tuple[float, str]]:
 
 
 PLANS: dict[str, Callable[[np.random.Generator], Iterator[Trial]]] = {
-    plan.__name__: plan for plan in (singles, others, pairs, removed, unknown, nulls, weak)
+    plan.__name__: plan for plan in (singles, others, pairs, removed, unknown, nulls, weak, doubts)
 }
 
 

@@ -7,6 +7,7 @@ import numpy as np
 from judge import Outcome
 from mre_core.trial.rates import Rate
 from plans import LEVEL
+from resolve import Resolved
 from scipy.stats import kstest
 
 Row = Sequence[object]
@@ -133,7 +134,40 @@ def power(found: Sequence[Outcome]) -> str:
     return table((*head, "ours: truth named or listed as indistinguishable"), rows)
 
 
-TABLES: dict[str, Callable[[Sequence[Outcome]], str]] = {
+def resolved(found: Sequence[Resolved]) -> str:
+    """What the proposed tests decide, by how many effects were in question."""
+    doubted = [r for r in found if r.doubted and set(r.trial.case.effects) <= r.before]
+    groups: dict[object, list[Resolved]] = {"all": doubted}
+    for one in doubted:
+        groups.setdefault(one.excitation, []).append(one)
+    rows = [
+        (
+            what,
+            len(own),
+            Rate(sum(r.right for r in own), len(own)),
+            sum(len(r.after) > 1 and set(r.trial.case.effects) <= r.after for r in own),
+            sum(not set(r.trial.case.effects) <= r.after for r in own),
+        )
+        for what, own in groups.items()
+    ]
+    head = ("proposed test", "in doubt before", "truth alone after", "still in doubt", "truth lost")
+    left = Counter(
+        f"{', '.join(r.trial.case.effects)}: {' or '.join(sorted(r.after)) or 'nothing'}"
+        for r in doubted
+        if not r.right
+    )
+    return "\n".join(
+        [
+            table(head, rows),
+            "",
+            f"Of {len(found)} campaigns {len(doubted)} left several, the truth among them. Not resolved: "
+            + ("; ".join(f"{what} ({n})" for what, n in left.most_common()) or "none")
+            + ".",
+        ]
+    )
+
+
+TABLES: dict[str, Callable[..., str]] = {
     "singles": naming,
     "others": naming,
     "pairs": naming,
@@ -141,4 +175,5 @@ TABLES: dict[str, Callable[[Sequence[Outcome]], str]] = {
     "unknown": admission,
     "nulls": nulls,
     "weak": power,
+    "doubts": resolved,
 }

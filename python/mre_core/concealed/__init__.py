@@ -2,6 +2,18 @@
 
 from .campaign import Campaign, Concealed, Recorded, make_campaign
 from .devices import BASES
+from .excitations import Excitation, followed, steady_current
 from .law import effects, laws_of
 
-__all__ = ["BASES", "Campaign", "Concealed", "Recorded", "effects", "laws_of", "make_campaign"]
+__all__ = [
+    "BASES",
+    "Campaign",
+    "Concealed",
+    "Excitation",
+    "Recorded",
+    "effects",
+    "followed",
+    "laws_of",
+    "make_campaign",
+    "steady_current",
+]

@@ -1,6 +1,7 @@
 """A device on its test bench: what the recordings show of it, with effects of any size."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -40,6 +41,13 @@ class Bench:
             moved = track_of(one, track.index, track.count, steps, late) if late else track
             views.append(shown(track, moved, self.device, chain))
         return views
+
+    def then(self, excitations: Sequence[Excitation], fine: float = FINE) -> "Bench":
+        """The same device later; what differs between recordings is as it was in the last one."""
+        later = Bench(self.device, excitations, fine)
+        count = len(self.excitations)
+        later.tracks = [replace(track, index=count - 1, count=count) for track in later.tracks]
+        return later
 
     def left(self, views: Sequence[Shown]) -> float:
         """What the base model cannot explain (N, rms)."""

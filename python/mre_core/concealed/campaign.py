@@ -90,6 +90,7 @@ def make_campaign(
     displacement_noise: float = 0.0,
     temperature: bool = False,
     fine: float = FINE,
+    also: Sequence[Excitation] = (),
 ) -> Campaign:
     """Simulate the recordings of a device with effects that its base model lacks.
 
@@ -123,6 +124,8 @@ def make_campaign(
         Record an ambient temperature that tells nothing.
     fine : float
         Least rate of the grid of the simulation, Hz.
+    also : sequence of Excitation
+        Recorded after the others, which they do not change.
 
     Returns
     -------
@@ -158,9 +161,10 @@ def make_campaign(
         parameters = {drew.size: found.size} | dict(drew.shape)
         truths.append(Concealed(name, form, drew.size, drew.unit, parameters, found.left, found.reached))
     views = bench.show(chain)
+    shown = [*views, *(bench.then(also, fine).show(chain) if also else ())]
     recordings = [
         _recorded(one, view, noise, noise_rms, velocity, displacement_noise, temperature, errors)
-        for one, view in zip(excitations, views, strict=True)
+        for one, view in zip([*excitations, *also], shown, strict=True)
     ]
     currents = sorted({float(c) for view in views for c in view.seen.current[[0, -1]]})
     parameters_of_base = [{"current": c} | bench.device.at(c) for c in currents]

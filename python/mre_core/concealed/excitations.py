@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.interpolate import make_interp_spline  # type: ignore[import-untyped]
 
 from .kinematics import TURN, Array, Course, Jet, Motion, constant, rise, sine, waved
 
@@ -114,6 +115,19 @@ def held(offset: float, frequency: float, amplitude: float, duration: float) -> 
             t, (np.array([0.25, 0.45, 0.6]) * duration).tolist(), [0.0, amplitude, 0.0, amplitude], SOFT
         )
         return place + size * sine(t, frequency)
+
+    return motion
+
+
+def followed(times: Array, displacement: Array) -> Motion:
+    """A command signal that the rig follows exactly; at rest before and after it."""
+    course = make_interp_spline(times, displacement, 5)
+    slope, bend = course.derivative(), course.derivative(2)
+
+    def motion(t: Array) -> Jet:
+        inside = (t >= times[0]) & (t <= times[-1])
+        near = np.clip(t, times[0], times[-1])
+        return Jet(course(near), inside * slope(near), inside * bend(near))
 
     return motion
 

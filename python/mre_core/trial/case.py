@@ -1,12 +1,13 @@
 """One case of a trial: what is concealed, and how it is recorded."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ..errors import InputError
 
 if TYPE_CHECKING:
-    from ..concealed import Campaign
+    from ..concealed import Campaign, Excitation
 
 LARGEST_ERROR = 0.06
 """Share of the force up to which a force plot looks right: the worst that the seed paper reports."""
@@ -31,8 +32,13 @@ class Case:
     displacement_noise: float
     seed: int
 
-    def simulate(self) -> "Campaign":
+    def simulate(self, also: "Sequence[Excitation]" = ()) -> "Campaign":
         """Make the recordings, weaker where a plot of the force would show that something is missing.
+
+        Parameters
+        ----------
+        also : sequence of Excitation
+            Recorded after the others, which they do not change.
 
         Returns
         -------
@@ -65,6 +71,7 @@ class Case:
                 self.velocity,
                 noise_share=self.noise_share,
                 displacement_noise=self.displacement_noise,
+                also=also,
             )
             if not made.effects or error_shown(made) <= LARGEST_ERROR:
                 return made

@@ -6,24 +6,29 @@
 
 use std::f64::consts::PI;
 
+use rayon::prelude::*;
+
 use super::distribution::chi_square_tail;
-use crate::recording::mean;
 
 /// Half-cosines that make a drift.
 const SLOW: usize = 3;
 /// Half-cosines from which the spectrum is extrapolated.
-const BESIDE: std::ops::Range<usize> = 5..25;
+const BESIDE: std::ops::Range<usize> = 5..100;
 /// Chance of an excess by noise below which it is a drift.
 const CHANCE: f64 = 1e-4;
-/// Spectra of noise rise towards low frequencies like the frequency to this power at most.
-const STEEPEST: f64 = -2.2;
+/// Spectra of noise fall with the frequency to these powers, in tenths.
+const STEEPNESS: std::ops::RangeInclusive<u32> = 0..=22;
+/// Half-cosines of the longest recording below which they are flat.
+const CORNERS: [f64; 8] = [0.0, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0];
+/// Spectra whose deviance (minus twice the logarithm of the likelihood) is this much above the least are possible.
+const POSSIBLE: f64 = 4.0;
 /// Caution: the extrapolated power is taken so many times as large.
-const CAUTION: f64 = 2.0;
+const CAUTION: f64 = 1.25;
 
 /// The residuals without their drift, if there is one.
 pub(super) fn without_drift(residuals: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let waves = waves(residuals);
-    if chance_of(&waves) > CHANCE {
+    if chance_of(residuals, &waves) > CHANCE {
         return residuals.to_vec();
     }
     residuals
@@ -39,16 +44,33 @@ pub(super) fn without_drift(residuals: &[Vec<f64>]) -> Vec<Vec<f64>> {
 
 /// Chance that noise alone looks as much like drift as these residuals.
 pub(super) fn chance(residuals: &[Vec<f64>]) -> f64 {
-    chance_of(&waves(residuals))
+    chance_of(residuals, &waves(residuals))
 }
 
-fn chance_of(waves: &[Vec<f64>]) -> f64 {
-    chi_square_tail(excess(waves) / CAUTION, SLOW * waves.len())
+fn chance_of(residuals: &[Vec<f64>], waves: &[Vec<f64>]) -> f64 {
+    chi_square_tail(excess(residuals, waves) / CAUTION, SLOW * waves.len())
 }
 
-/// Amplitudes of the half-cosines of each residual.
+/// Amplitudes of the slow half-cosines of each residual, then those of what a line leaves of it, up to half its
+/// sampling rate: a drift is a line above all, which reaches into the faster ones.
 fn waves(residuals: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    residuals.iter().map(|e| (1..BESIDE.end).map(|k| amplitude(e, k)).collect()).collect()
+    let own = |e: &Vec<f64>| {
+        let mut found = amplitudes(e, SLOW + 1);
+        found.extend(amplitudes(&without_line(e), BESIDE.end.min(e.len() / 2)).iter().skip(SLOW));
+        found
+    };
+    residuals.par_iter().map(own).collect()
+}
+
+fn without_line(series: &[f64]) -> Vec<f64> {
+    let middle = 0.5 * (series.len() as f64 - 1.0);
+    let place = |i: usize| i as f64 - middle;
+    let (mut along, mut squares) = (0.0, f64::MIN_POSITIVE);
+    for (i, e) in series.iter().enumerate() {
+        along += e * place(i);
+        squares += place(i).powi(2);
+    }
+    series.iter().enumerate().map(|(i, e)| e - along / squares * place(i)).collect()
 }
 
 /// Half-cosine `k` at a sample, of unit square over `n` samples.
@@ -56,32 +78,51 @@ fn wave(n: usize, k: usize, i: usize) -> f64 {
     (2.0 / n as f64).sqrt() * (PI * k as f64 * (i as f64 + 0.5) / n as f64).cos()
 }
 
-fn amplitude(series: &[f64], k: usize) -> f64 {
-    series.iter().enumerate().map(|(i, e)| e * wave(series.len(), k, i)).sum()
+/// Amplitudes of half-cosines 1 to `end` - 1, by turning all of them from sample to sample.
+fn amplitudes(series: &[f64], end: usize) -> Vec<f64> {
+    let n = series.len() as f64;
+    let angle = |k: usize| PI * k as f64 / n;
+    let turn: Vec<(f64, f64)> = (1..end).map(|k| angle(k).sin_cos()).collect();
+    let mut now: Vec<(f64, f64)> = (1..end).map(|k| (0.5 * angle(k)).sin_cos()).collect();
+    let mut sums = vec![0.0; turn.len()];
+    for e in series {
+        for ((sum, (s, c)), (sine, cosine)) in sums.iter_mut().zip(&mut now).zip(&turn) {
+            *sum += e * *c;
+            (*s, *c) = (*s * cosine + *c * sine, *c * cosine - *s * sine);
+        }
+    }
+    let norm = (2.0 / n).sqrt();
+    sums.into_iter().map(|sum| norm * sum).collect()
 }
 
-/// Squares of the slow amplitudes of all residuals over the extrapolated powers.
+/// Squares of the slow amplitudes of all residuals over the extrapolated powers, the largest that are possible.
 ///
-/// The spectra have levels of their own and one slope: that of a single one is too uncertain to extrapolate. One
-/// standard error is added to it.
-fn excess(waves: &[Vec<f64>]) -> f64 {
-    let logarithms: Vec<f64> = BESIDE.map(|k| (k as f64).ln()).collect();
-    let x = mean(&logarithms);
-    // Least-squares lines through the logarithms of squares against those of the frequency; the mean logarithm of a
-    // chi-square variable with one degree of freedom is -1.27, its variance pi^2 / 2.
-    let heights = |w: &Vec<f64>| -> Vec<f64> {
-        BESIDE.map(|k| w[k - 1].powi(2).max(f64::MIN_POSITIVE).ln() + 1.27).collect()
+/// The spectra have levels of their own and one shape, flat below a corner (an autoregression) or not (1/f noise).
+/// The likelihood of the squares is Whittle's.
+fn excess(residuals: &[Vec<f64>], waves: &[Vec<f64>]) -> f64 {
+    let longest = residuals.iter().map(Vec::len).max().unwrap_or(1) as f64;
+    let shape = |corner: f64, steepness: f64| {
+        let own = |(e, w): (&Vec<f64>, &Vec<f64>)| {
+            let corner = corner * e.len() as f64 / longest;
+            let power = |k: usize| ((k * k) as f64 + corner * corner).powf(-0.5 * steepness);
+            let beside: Vec<(f64, f64)> =
+                (BESIDE.start..=w.len()).map(|k| (w[k - 1].powi(2), power(k))).collect();
+            let count = beside.len() as f64;
+            let level = beside.iter().map(|(square, power)| square / power).sum::<f64>() / count;
+            let level = level.max(f64::MIN_POSITIVE);
+            let over = (1..=SLOW).map(|k| w[k - 1].powi(2) / (level * power(k))).sum::<f64>();
+            (count * level.ln() + beside.iter().map(|(_, power)| power.ln()).sum::<f64>(), over)
+        };
+        // One with hardly a spectrum tells nothing.
+        let told = residuals.iter().zip(waves).filter(|(_, w)| w.len() > 2 * BESIDE.start);
+        told.map(own).fold((0.0, 0.0), |sum, one| (sum.0 + one.0, sum.1 + one.1))
     };
-    let heights: Vec<Vec<f64>> = waves.iter().map(heights).collect();
-    let xx = waves.len() as f64 * logarithms.iter().map(|l| (l - x).powi(2)).sum::<f64>();
-    let of = |own: &Vec<f64>| logarithms.iter().zip(own).map(|(l, y)| (l - x) * y).sum::<f64>();
-    let slope = heights.iter().map(of).sum::<f64>() / xx;
-    let slope = (slope - (0.5 * PI * PI / xx).sqrt()).clamp(STEEPEST, 0.0);
-    let over = |(w, own): (&Vec<f64>, &Vec<f64>)| {
-        let level = mean(own);
-        (1..=SLOW).map(|k| w[k - 1].powi(2) / (level + slope * ((k as f64).ln() - x)).exp()).sum::<f64>()
-    };
-    waves.iter().zip(&heights).map(over).sum()
+    let shapes: Vec<(f64, f64)> = CORNERS
+        .iter()
+        .flat_map(|corner| STEEPNESS.map(move |tenths| shape(*corner, f64::from(tenths) / 10.0)))
+        .collect();
+    let least = shapes.iter().map(|s| s.0).fold(f64::INFINITY, f64::min);
+    shapes.iter().filter(|s| s.0 <= least + POSSIBLE).map(|s| s.1).fold(f64::INFINITY, f64::min)
 }
 
 #[cfg(test)]
@@ -92,36 +133,54 @@ mod tests {
     use super::super::distribution::normal;
     use super::*;
 
-    /// Noise of seven recordings with a correlation from sample to sample.
-    fn recordings(pole: f64, seed: u64) -> Vec<Vec<f64>> {
+    /// Noise of seven recordings: the sum of processes with these correlations from sample to sample.
+    fn recordings(poles: &[f64], seed: u64) -> Vec<Vec<f64>> {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         (0..7)
             .map(|_| {
-                let mut state = 0.0;
+                let mut states = vec![0.0; poles.len()];
                 let mut next = || {
-                    state = pole * state + normal(&mut random);
-                    state
+                    for (state, pole) in states.iter_mut().zip(poles) {
+                        *state = pole * *state + (1.0 - pole * pole).sqrt() * normal(&mut random);
+                    }
+                    states.iter().sum()
                 };
-                (0..3400).map(|_| next()).collect::<Vec<f64>>().split_off(2000)
+                (0..13_400).map(|_| next()).collect::<Vec<f64>>().split_off(12_000)
             })
             .collect()
     }
 
+    /// Of 1/f noise: equal shares of each decade.
+    const PINK: [f64; 8] = [0.3, 0.684, 0.9, 0.9684, 0.99, 0.99684, 0.999, 0.999_684];
+
     #[test]
     fn slow_noise_is_no_drift() {
-        for pole in [0.0, 0.97, 0.995] {
-            let alarms = (0..200).filter(|seed| chance(&recordings(pole, *seed)) < 0.01).count();
-            assert!(alarms <= 8, "{alarms} of 200 at {pole}");
+        for poles in [&[0.0][..], &[0.97], &[0.995], &PINK] {
+            let alarms = (0..200).filter(|seed| chance(&recordings(poles, *seed)) < 0.01).count();
+            assert!(alarms <= 8, "{alarms} of 200 at {poles:?}");
         }
     }
 
     #[test]
     fn a_line_as_large_as_white_noise_is_a_drift() {
-        let mut drifting = recordings(0.0, 1);
+        let mut drifting = recordings(&[0.0], 1);
         for residual in &mut drifting {
             let n = residual.len() as f64;
             residual.iter_mut().enumerate().for_each(|(i, e)| *e += 3.0 * (i as f64 / n - 0.5));
         }
         assert!(chance(&drifting) < 1e-6);
+    }
+
+    #[test]
+    fn a_line_of_three_times_the_rms_is_a_drift_under_correlated_noise() {
+        let found = (0..50).filter(|seed| {
+            let mut drifting = recordings(&[0.97], *seed);
+            for residual in &mut drifting {
+                let n = residual.len() as f64;
+                residual.iter_mut().enumerate().for_each(|(i, e)| *e += 10.4 * (i as f64 / n - 0.5));
+            }
+            chance(&drifting) < CHANCE
+        });
+        assert!(found.count() >= 45);
     }
 }

@@ -60,7 +60,7 @@ impl<'a> Search<'_, 'a> {
     }
 
     /// The first of the best pair, where the pair from another first is clearly better than the pair from
-    /// the best single effect.
+    /// the best single effect; or another first that is clearly better under the noise that the pair left.
     pub(super) fn best_first(
         &self,
         before: &Named<'a>,
@@ -88,14 +88,18 @@ impl<'a> Search<'_, 'a> {
                 Some((first, best))
             })
             .collect();
-        let best = pairs.into_iter().min_by(|a, b| a.1.criterion().total_cmp(&b.1.criterion()));
-        match self.monitor.whole(best)? {
-            Some((first, pair)) if pair.criterion() < second.criterion() - CLEAR => {
-                let mut named = self.look(first.assembly, &first.fitted.unit, &single.noise)?;
-                named.p_values = single.p_values;
-                Some(named)
-            }
-            _ => Some(single),
-        }
+        let pairs = self.monitor.whole(pairs)?;
+        let least = |one: &dyn Fn(&(Candidate, Candidate)) -> f64| {
+            pairs.iter().min_by(|a, b| one(a).total_cmp(&one(b))).map(|best| (one(best), &best.0))
+        };
+        let own = Candidate { assembly: single.assembly.clone(), fitted: single.fitted.clone() };
+        let clearly =
+            |found: Option<(f64, _)>, known: f64| found.filter(|f| f.0 < known - CLEAR).map(|f| f.1);
+        let other = clearly(least(&|pair| pair.1.criterion()), second.criterion())
+            .or_else(|| clearly(least(&|pair| pair.0.criterion()), own.criterion()));
+        let Some(first) = other else { return Some(single) };
+        let mut named = self.look(first.assembly.clone(), &first.fitted.unit, &single.noise)?;
+        named.p_values = single.p_values;
+        Some(named)
     }
 }

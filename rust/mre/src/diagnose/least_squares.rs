@@ -18,6 +18,9 @@ const MOST: usize = 25;
 /// The search ends when a step gains less than this (in squared standard deviations).
 const LEAST_GAIN: f64 = 1e-2;
 
+/// Fits at most until those samples are clipped whose force is beyond the level.
+const CLIPPINGS: usize = 12;
+
 /// An assembly with fitted parameters.
 #[derive(Debug, Clone)]
 pub struct Fitted {
@@ -127,10 +130,9 @@ impl Point {
         let mut values = vec![0.0; coefficients.len()];
         let mut masks = censored_by_measurement(assembly, &raw);
         // Which samples are clipped follows from the force, and the force from the fit without them.
-        let passes = if raw.iter().any(|c| c.clip.is_some()) { 3 } else { 1 };
         let mut normal = Normal::zeros(values.len());
         let mut whitened = Vec::new();
-        for pass in 0..passes {
+        for _ in 0..CLIPPINGS {
             (whitened, normal) = gather(assembly, data, &raw, &masks, values.len());
             for (i, known) in assembly.known_of_coefficients().into_iter().enumerate() {
                 normal.gram[(i, i)] += known;
@@ -138,9 +140,11 @@ impl Point {
             let lower: Vec<f64> = coefficients.iter().map(|p| p.smallest).collect();
             let upper: Vec<f64> = coefficients.iter().map(|p| p.largest).collect();
             values = bounded::minimise(&normal.gram, &normal.right, &lower, &upper);
-            if pass + 1 < passes {
-                masks = raw.iter().map(|c| censored(c, &c.force(&values))).collect();
+            let clipped: Vec<Vec<bool>> = raw.iter().map(|c| censored(c, &values)).collect();
+            if clipped == masks {
+                break;
             }
+            masks = clipped;
         }
         let recordings: Vec<Local> = raw
             .iter()
@@ -302,8 +306,10 @@ fn gather(
     (all, normal)
 }
 
-fn censored(columns: &Columns, force: &[f64]) -> Vec<bool> {
-    columns.clip.map_or_else(Vec::new, |(low, high)| force.iter().map(|f| *f <= low || *f >= high).collect())
+fn censored(columns: &Columns, coefficients: &[f64]) -> Vec<bool> {
+    columns.clip.map_or_else(Vec::new, |(low, high)| {
+        columns.force(coefficients).iter().map(|f| *f <= low || *f >= high).collect()
+    })
 }
 
 fn censored_by_measurement(assembly: &Assembly, raw: &[Columns]) -> Vec<Vec<bool>> {
