@@ -155,6 +155,21 @@ def test_sampling_rate_of_irregular_times() -> None:
     assert recording.sampling_rate == pytest.approx(100.0, rel=0.03)
 
 
+def test_times_that_were_rounded_are_even() -> None:
+    t = np.round(np.arange(2000) / 256.0, 3)
+    recording = Recording(t, np.sin(t), np.sin(t))
+    assert recording.evenly_sampled
+    # Of the median step it would be 250 Hz.
+    assert recording.sampling_rate == pytest.approx(256.0, rel=1e-4)
+
+
+def test_a_gap_is_not_even() -> None:
+    t = np.arange(2000) / 256.0 + (np.arange(2000) > 1000) * 0.1
+    recording = Recording(t, np.sin(t), np.sin(t))
+    assert not recording.evenly_sampled
+    assert recording.sampling_rate == pytest.approx(256.0, rel=1e-9)
+
+
 # Coil current
 
 

@@ -9,7 +9,6 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-_EVEN: Final = 1e-3
 _FEWEST_CYCLES: Final = 1.5
 """A push from one end to the other has two sides, and is no cycle."""
 
@@ -25,7 +24,7 @@ class Signals:
     duration_s: float
     rate_Hz: float
     even: bool
-    """Whether all steps of time are equal within 0.1 %."""
+    """Whether all steps of time are one, but for rounding, as a diagnosis asks."""
     cycles: float | None
     """Turns of the displacement: half the times that it is on one side of the middle of its stroke."""
     frequency_Hz: float | None
@@ -59,7 +58,6 @@ def measure(recording: Recording) -> Signals:
     import numpy as np
 
     t, x, force = recording.time, recording.displacement, recording.force
-    steps = np.diff(t)
     cycles = _cycles(x)
     frequency, turns = _fundamental(t, x) if cycles is not None else (None, None)
     energy = phase = None
@@ -72,7 +70,7 @@ def measure(recording: Recording) -> Signals:
         samples=len(t),
         duration_s=float(t[-1] - t[0]),
         rate_Hz=float(recording.sampling_rate),
-        even=bool(np.ptp(steps) <= _EVEN * steps.mean()),
+        even=recording.evenly_sampled,
         cycles=cycles,
         frequency_Hz=frequency,
         stroke_mm=(float(x.min()), float(x.max())),

@@ -46,7 +46,7 @@ def plot_fit(model: Model, recording: Recording) -> "Figure":
         axis.plot(abscissa, simulated, **MODEL)
         axis.set_xlabel(label)
         axis.set_ylabel("force / N")
-    axes[0, 0].legend(loc="upper right")
+    axes[0, 0].legend(loc="lower left", bbox_to_anchor=(0, 1), ncol=2)
     error = axes[0, 1]
     error.plot(time, 100 * (measured - simulated) / np.abs(measured).max(), color="black", linewidth=0.8)
     error.set_xlabel("time / s")

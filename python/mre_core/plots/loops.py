@@ -108,7 +108,8 @@ def _draw(axis: "Axes", recording: Recording, model: Model | None, label: str, p
     cycles = find_cycles(recording.time[first:last], recording.displacement[first:last])
     if cycles:
         ends = np.searchsorted(recording.time, [cycles[-1].start, cycles[-1].stop])
-        first, last = int(ends[0]), min(int(ends[1]) + 1, last)
+        # A sample beyond either end, so that the loop closes.
+        first, last = max(int(ends[0]) - 1, first), min(int(ends[1]) + 1, last)
     shown = thin(slice(first, last))
     x = recording.displacement[shown]
     style: Look = (

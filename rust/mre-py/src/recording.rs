@@ -154,6 +154,11 @@ impl Recording {
     }
 
     #[getter]
+    fn evenly_sampled(&self) -> bool {
+        self.inner.evenly_sampled()
+    }
+
+    #[getter]
     fn scored(&self) -> (usize, usize) {
         let range = self.inner.scored();
         (range.start, range.end)

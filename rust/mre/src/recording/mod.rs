@@ -13,6 +13,9 @@ pub use condition::Condition;
 use crate::error::{Error, Result};
 use crate::velocity;
 
+/// Share of a step by which a time is off an even grid.
+const OFF_THE_GRID: f64 = 0.75;
+
 /// Fewest samples from which a velocity and five parameters can be told.
 pub const MIN_SAMPLES: usize = 8;
 
@@ -129,8 +132,27 @@ impl Recording {
         self.velocity_window
     }
 
-    /// Samples per second, from the median time step.
+    /// Step in s of the even grid that the times are on, as rounded ones are: within three quarters of a step.
+    ///
+    /// # Errors
+    /// The first sample that is off the grid.
+    pub(crate) fn even_step(&self) -> std::result::Result<f64, usize> {
+        let time = &self.series.time;
+        let step = (time[time.len() - 1] - time[0]) / (time.len() - 1) as f64;
+        let off = |i: usize| (time[i] - time[0] - step * i as f64).abs() > OFF_THE_GRID * step;
+        (0..time.len()).find(|i| off(*i)).map_or(Ok(step), Err)
+    }
+
+    /// True where a step of time is the same everywhere, but for rounding.
+    pub fn evenly_sampled(&self) -> bool {
+        self.even_step().is_ok()
+    }
+
+    /// Samples per second: of the even grid, or else from the median time step.
     pub fn sampling_rate(&self) -> f64 {
+        if let Ok(step) = self.even_step() {
+            return 1.0 / step;
+        }
         let mut steps: Vec<f64> = self.series.time.windows(2).map(|pair| pair[1] - pair[0]).collect();
         steps.sort_by(f64::total_cmp);
         1.0 / steps[steps.len() / 2]
