@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::candidates::{Candidate, candidates, joint, scores};
 use super::least_squares::Data;
 use super::monitor::Stage;
-use super::screen::Null;
+use super::null::Null;
 use super::search::{FEW, Named, REFITTED, Search};
 use crate::effect::Effect;
 

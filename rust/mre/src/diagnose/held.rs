@@ -4,7 +4,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::bounded;
-use super::screen::{Null, Score};
+use super::null::Null;
+use super::screen::Score;
 use super::step::{Ridge, step};
 use crate::assembly::Assembly;
 

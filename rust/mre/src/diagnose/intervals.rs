@@ -2,7 +2,8 @@
 
 use nalgebra::DMatrix;
 
-use super::least_squares::{Data, Point};
+use super::least_squares::Data;
+use super::point::Point;
 use crate::assembly::Assembly;
 use crate::parameter::Scale;
 

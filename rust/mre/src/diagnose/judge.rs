@@ -2,11 +2,12 @@
 
 use super::begin::Begun;
 use super::candidates::{Candidate, fit};
-use super::least_squares::{Data, Fitted, forces, refine};
+use super::least_squares::{Data, Fitted, refine};
 use super::missing::{Generic, Mismatch};
 use super::monitor::Monitor;
 use super::normal::Rows;
-use super::screen::Null;
+use super::null::Null;
+use super::point::forces;
 use super::search::{Named, rms};
 use super::unnamed::{self, Unnamed};
 use super::verdict::{Evidence, Tests, Verdict};

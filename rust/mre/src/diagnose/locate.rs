@@ -4,7 +4,7 @@
 use rayon::prelude::*;
 
 use super::distribution::chi_square_tail;
-use super::screen::Null;
+use super::null::Null;
 use crate::effect::Scene;
 
 /// Moments of each recording at which the stiffness may change.

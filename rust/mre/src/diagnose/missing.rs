@@ -5,7 +5,7 @@ use nalgebra::DVector;
 
 use super::distribution::chi_square_tail;
 use super::features::{On, features};
-use super::screen::Null;
+use super::null::Null;
 use crate::effect::Scene;
 
 /// Share of a feature's square that the projection has to leave.

@@ -6,10 +6,13 @@
 
 mod absorbed;
 mod alternatives;
+mod autoregression;
 mod begin;
 mod blank;
+mod block;
 mod bounded;
 mod candidates;
+mod clipped;
 mod diagnosis;
 mod distribution;
 mod drift;
@@ -23,10 +26,13 @@ mod least_squares;
 mod locate;
 mod missing;
 mod monitor;
+mod needless;
 mod next_test;
 mod noise;
 mod normal;
+mod null;
 mod plain_mismatch;
+mod point;
 mod prove;
 mod realisation;
 mod run;

@@ -4,10 +4,11 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::least_squares::{Data, Fitted, Point, refine};
+use super::least_squares::{Data, Fitted, refine};
 use super::monitor::Monitor;
 use super::noise::Noise;
 use super::normal::Rows;
+use super::point::Point;
 use crate::assembly::{Assembly, Base, Campaign};
 use crate::kernel::filter::dot;
 use crate::recording::{Condition, Recording};

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::features::On;
-use super::screen::Null;
+use super::null::Null;
 use crate::effect::Scene;
 
 /// Stretches of the displacement in the map.

@@ -4,7 +4,7 @@
 use std::f64::consts::TAU;
 
 use super::distribution::chi_square_tail;
-use super::screen::Null;
+use super::null::Null;
 use crate::effect::Scene;
 
 /// Waves over the largest displacement: lowest, highest, and how far apart.

@@ -1,0 +1,62 @@
+//! Models without one of their effects.
+
+use super::candidates::{Candidate, fit};
+use super::monitor::Stage;
+use super::noise::Noise;
+use super::prove::prove;
+use super::search::{Named, Search};
+
+impl<'a> Search<'_, 'a> {
+    /// A model without one of its effects, refitted.
+    pub(super) fn drop(&self, named: &Named<'a>, place: usize) -> Candidate<'a> {
+        let mut effects = named.assembly.effects().to_vec();
+        effects.remove(place);
+        let narrower = named.assembly.with(effects);
+        let sizes = named.assembly.campaign().sizes();
+        let mut shapes = named.assembly.physical(&named.fitted.unit);
+        let first: usize = named.assembly.base_shapes()
+            + named.assembly.effects()[..place].iter().map(|e| e.shape(sizes).len()).sum::<usize>();
+        let count = named.assembly.effects()[place].shape(sizes).len();
+        shapes.drain(first..first + count);
+        let data = self.data(&named.noise);
+        let unit = narrower.unit(&shapes);
+        fit(narrower, data, &unit)
+    }
+
+    /// Remove effects that the others make unnecessary.
+    pub(super) fn without_the_needless(&self, named: Named<'a>) -> Named<'a> {
+        let mut here = named;
+        let mut place = self.given();
+        while self.found(&here) > 1 && place < here.assembly.effects().len() {
+            let now = Candidate { assembly: here.assembly.clone(), fitted: here.fitted.clone() };
+            let tried = self.monitor.stage(Stage::Needless, || {
+                let without = self.drop(&here, place);
+                let needless =
+                    without.criterion() < now.criterion() || self.idle(&now, &without, &here.noise);
+                (without, needless)
+            });
+            let Some((without, needless)) = tried else { break };
+            if needless {
+                let Some(mut narrower) = self.look(without.assembly, &without.fitted.unit, &here.noise)
+                else {
+                    break;
+                };
+                narrower.p_values.clone_from(&here.p_values);
+                narrower.p_values.remove(place - self.given());
+                here = narrower;
+                place = self.given();
+            } else {
+                place += 1;
+            }
+        }
+        here
+    }
+
+    /// True where the base plainly misses, and a model does no better on held-out data than one without an
+    /// effect: its criterion only counts what is left.
+    fn idle(&self, with: &Candidate<'a>, without: &Candidate<'a>, noise: &Noise) -> bool {
+        let held_out =
+            |c: &Candidate<'a>| prove(&c.assembly, noise, self.splits, &c.fitted, self.monitor).held_out_rms;
+        self.begun.noise.hidden() && held_out(without) <= held_out(with)
+    }
+}
