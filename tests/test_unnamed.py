@@ -55,3 +55,18 @@ def test_a_viscosity_that_grows_with_the_displacement_gets_no_name(size: float) 
 
 def test_noise_of_the_displacement_is_taken_off() -> None:
     assert diagnosed(0.0, shaken=0.003, coloured=True).verdict == "adequate"
+
+
+@pytest.mark.parametrize("draw", [100, 200])
+def test_a_stiffness_that_wanders_in_each_recording_on_its_own_gets_no_name(draw: int) -> None:
+    recordings = []
+    for place, motion in enumerate([*MOTIONS, *MOTIONS]):
+        rng = np.random.default_rng(draw + place)
+        knots = np.linspace(0.0, 10.0, 8)
+        wander = 0.06 * np.interp(motion.time, knots, rng.normal(size=len(knots)))
+        force = simulate(SPRING, motion) + wander * motion.displacement + 0.2 * slow(rng, len(wander))
+        recordings.append(
+            Recording(motion.time, motion.displacement, force, velocity=motion.velocity, name=f"r{place}")
+        )
+    found = mre_core.diagnose(recordings, "kelvin_voigt", seed=1)
+    assert found.verdict == "unexplained", [e.id for e in found.effects]

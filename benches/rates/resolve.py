@@ -55,12 +55,15 @@ def proposed(proposal: Mapping[str, Any], current: float) -> Excitation:
 
 def _said(trial: Trial, also: tuple[Excitation, ...]) -> tuple[frozenset[str], Mapping[str, Any] | None]:
     """What may be the effect, and the test that is proposed."""
-    found = mre_core.diagnose(
-        recordings_of(trial.case.simulate(also)),
-        trial.case.base,
-        seed=1,
-        false_alarm=trial.false_alarm,
-        threads=1,
-    )
+    try:
+        found = mre_core.diagnose(
+            recordings_of(trial.case.simulate(also)),
+            trial.case.base,
+            seed=1,
+            false_alarm=trial.false_alarm,
+            threads=1,
+        )
+    except mre_core.InputError:  # a lag so long that the device gives out energy
+        return frozenset(), None
     said = {one for effect in found.effects for one in (effect.id, *effect.indistinguishable_from)}
     return frozenset(said), found.next_test

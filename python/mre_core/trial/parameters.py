@@ -25,7 +25,7 @@ _SAME: dict[tuple[str, str], dict[str, str]] = {
     ("field_lag", "first_order"): {"tau": "tau_i"},
     ("mains_interference", "line_50"): {"line": "f"},
     ("mains_interference", "line_60"): {"line": "f"},
-    ("stiffness_jump", "step"): {"depth": "s", "moment": "t_0"},
+    ("stiffness_jump", "step"): {"depth": "s"},
 }
 """Name in the trial to name in the catalogue, by effect and law."""
 

@@ -71,7 +71,8 @@ fn alone<'a>(
     // A drift has parameters in every recording, and even smooth forces have a slow part.
     let drifts = named.assembly.effects().iter().any(|e| e.slow() && e.of_the_measurement());
     let surpassed = effects > 0 && !drifts && of_all.improvement > improvement + CLEAR;
-    let tests = Tests { first, rest, smooth: of_rest.p_value, explained, change, surpassed };
+    let wandering = last.as_ref().map_or(Mismatch::NONE, Null::wandering);
+    let tests = Tests { first, rest, smooth: of_rest.p_value, wandering, explained, change, surpassed };
     let evidence = Evidence::new(&tests, &named, begun.noise.hidden(), false_alarm);
     let verdict = evidence.verdict(effects);
     Judged { named, base, evidence, verdict }

@@ -15,14 +15,21 @@ const MOST_RECORDINGS: usize = 24;
 
 /// Stretches of time over which a stiffness may come and go.
 const STRETCHES: usize = 6;
+/// The same where it does so in each recording on its own.
+const OWN_STRETCHES: usize = 8;
+/// Caution for so many columns, under a noise that was estimated: their gain counts this much less.
+const CAUTION: f64 = 1.25;
 
 /// A stiffness that comes and goes: at the end of every stretch but the last.
 fn passing(scene: &Scene) -> impl Iterator<Item = Vec<f64>> {
-    let length = scene.duration() / STRETCHES as f64;
-    (1..STRETCHES).map(move |k| {
-        let near = |t: f64| (1.0 - ((t - scene.time[0]) / length - k as f64).abs()).max(0.0);
-        scene.time.iter().zip(scene.displacement).map(|(t, x)| near(*t) * x).collect()
-    })
+    (1..STRETCHES).map(|k| near(scene, k, STRETCHES))
+}
+
+/// The displacement around the end of stretch `k`.
+fn near(scene: &Scene, k: usize, stretches: usize) -> Vec<f64> {
+    let length = scene.duration() / stretches as f64;
+    let share = |t: f64| (1.0 - ((t - scene.time[0]) / length - k as f64).abs()).max(0.0);
+    scene.time.iter().zip(scene.displacement).map(|(t, x)| share(*t) * x).collect()
 }
 
 /// Outcome of the test.
@@ -30,13 +37,25 @@ fn passing(scene: &Scene) -> impl Iterator<Item = Vec<f64>> {
 pub(super) struct Mismatch {
     /// Chance of at least so much under the null.
     pub(super) p_value: f64,
-    /// Squared standard deviations that the features take off, beyond what noise gives.
-    pub(super) excess: f64,
+    /// Squared standard deviations that the features take off.
+    pub(super) gain: f64,
+    /// The same that noise gives: the number of independent features.
+    pub(super) freedom: usize,
 }
 
 impl Mismatch {
     /// No test could be made.
-    pub(super) const NONE: Self = Self { p_value: 1.0, excess: 0.0 };
+    pub(super) const NONE: Self = Self { p_value: 1.0, gain: 0.0, freedom: 0 };
+
+    fn new(gain: f64, freedom: usize) -> Self {
+        let p_value = if freedom == 0 { 1.0 } else { chi_square_tail(gain, freedom) };
+        Self { p_value, gain, freedom }
+    }
+
+    /// Squared standard deviations that the features take off, beyond what noise gives.
+    pub(super) fn excess(&self) -> f64 {
+        (self.gain - self.freedom as f64).max(0.0)
+    }
 }
 
 /// Projected products of some columns, scaled to unit length.
@@ -72,10 +91,7 @@ impl Projected {
                 freedom += 1;
             }
         }
-        if freedom == 0 {
-            return Mismatch::NONE;
-        }
-        Mismatch { p_value: chi_square_tail(gain, freedom), excess: (gain - freedom as f64).max(0.0) }
+        Mismatch::new(gain, freedom)
     }
 }
 
@@ -119,6 +135,22 @@ impl Generic {
 }
 
 impl Null<'_> {
+    /// A stiffness that comes and goes in each recording on its own.
+    pub(super) fn wandering(&self) -> Mismatch {
+        let recordings = self.assembly().campaign().recordings().len();
+        if recordings > MOST_RECORDINGS {
+            return Mismatch::NONE;
+        }
+        let each = OWN_STRETCHES + 1;
+        let (gram, right, squares) = self.project(each * recordings, |r| {
+            let scene = self.scene(r);
+            (0..each).map(|k| (each * r + k, near(&scene, k, OWN_STRETCHES))).collect()
+        });
+        let all: Vec<usize> = (0..each * recordings).collect();
+        let Mismatch { gain, freedom, .. } = Projected::of(&gram, &right, &squares, &all).mismatch();
+        Mismatch::new(gain / CAUTION, freedom)
+    }
+
     /// Project the features.
     pub(super) fn generic(&self) -> Generic {
         let recordings = self.assembly().campaign().recordings().len();

@@ -55,11 +55,11 @@ pub struct Unknown {
 /// Describe what is left beside a fitted model.
 pub(super) fn describe(null: &Null) -> Unknown {
     let generic = null.generic();
-    let all = generic.mismatch().excess.max(f64::MIN_POSITIVE);
+    let all = generic.mismatch().excess().max(f64::MIN_POSITIVE);
     let mut depends_on: Vec<Dependence> = generic
         .things()
         .into_iter()
-        .map(|on| Dependence { on, share: (generic.of(|other| other == on).excess / all).min(1.0) })
+        .map(|on| Dependence { on, share: (generic.of(|other| other == on).excess() / all).min(1.0) })
         .collect();
     depends_on.sort_by(|a, b| b.share.total_cmp(&a.share));
     let strongest = depends_on.first().map_or(0.0, |d| d.share);

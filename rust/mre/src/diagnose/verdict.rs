@@ -69,6 +69,8 @@ pub(super) struct Tests {
     pub(super) rest: Mismatch,
     /// Chance of the strongest smooth force that no effect has, beside the final model.
     pub(super) smooth: f64,
+    /// A stiffness that comes and goes in each recording on its own, beside the final model.
+    pub(super) wandering: Mismatch,
     /// Squared standard deviations that the effects explain.
     pub(super) explained: f64,
     /// Rms in N of the force that the best further candidate would add.
@@ -79,12 +81,12 @@ pub(super) struct Tests {
 
 impl Evidence {
     pub(super) fn new(tests: &Tests, named: &Named, plain: bool, false_alarm: f64) -> Self {
-        let Tests { first, rest, smooth, explained, change, surpassed } = *tests;
+        let Tests { first, rest, smooth, wandering, explained, change, surpassed } = *tests;
         let catalogue = by_effect(&named.scores);
         let holm = catalogue.iter().map(|(_, p)| *p).fold(1.0, f64::min) * catalogue.len() as f64;
-        let p_rest = (3.0 * rest.p_value.min(holm).min(smooth)).min(1.0);
+        let p_rest = (4.0 * rest.p_value.min(holm).min(smooth).min(wandering.p_value)).min(1.0);
         let gain = named.next.as_ref().map_or(0.0, |n| (named.fitted.left - n.fitted.left).max(0.0));
-        let left = rest.excess.max(gain);
+        let left = rest.excess().max(wandering.excess()).max(gain);
         let share = if left > 0.0 { left / (left + explained) } else { 0.0 };
         let significant = p_rest <= false_alarm;
         Self {
