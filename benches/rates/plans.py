@@ -6,6 +6,7 @@ from itertools import cycle, islice
 
 import numpy as np
 from mre_core.concealed import BASES, effects, laws_of
+from mre_core.concealed.campaign import OWN_EXCITATION
 from mre_core.trial.case import Case
 
 STRENGTHS = (3.0, 1.0, 0.5)
@@ -114,9 +115,11 @@ def doubts(rng: np.random.Generator) -> Iterator[Trial]:
     tried = cycle(LITTLE_TOLD)
     for strength, effect in _crossed(STRENGTHS[:2]):
         made = _trial(rng, (effect,), (laws_of(effect)[0],), strength)
-        # Effects of the field, and creep, ask for excitations of their own.
-        own = effect.startswith("field") or effect == "creep"
-        yield made if own else replace(made, case=replace(made.case, excitation=next(tried)))
+        yield (
+            made
+            if effect in OWN_EXCITATION
+            else replace(made, case=replace(made.case, excitation=next(tried)))
+        )
 
 
 def _crossed(strengths: tuple[float, ...]) -> Iterator[tuple[float, str]]:
