@@ -101,7 +101,7 @@ impl<'a> Search<'_, 'a> {
         let (mut first, mut removed_by_first) = (None, 0.0);
         while self.found(&here) < MOST {
             if self.found(&here) > 0 {
-                let mut tried = here.next.iter().chain(&here.later);
+                let mut tried = self.in_turn(&here).into_iter();
                 let Some(best) = tried.find_map(|next| self.worth_adding(&here, next, removed_by_first))
                 else {
                     break;
@@ -142,6 +142,19 @@ impl<'a> Search<'_, 'a> {
         let mut wider = self.look(next.assembly.clone(), &next.fitted.unit, &here.noise)?;
         wider.p_values = here.p_values.iter().copied().chain([p_value]).collect();
         Some(wider)
+    }
+
+    /// Candidates beside a model in the order of trying: that of their errors on held-out samples where the
+    /// likelihood of a hidden noise says little.
+    fn in_turn<'n>(&self, here: &'n Named<'a>) -> Vec<&'n Candidate<'a>> {
+        let error = |c: &Candidate<'a>| {
+            prove(&c.assembly, &here.noise, self.splits, &c.fitted, self.monitor).held_out_rms
+        };
+        let all = here.next.iter().chain(&here.later);
+        let mut tried: Vec<_> =
+            all.map(|c| (if here.later.is_empty() { 0.0 } else { error(c) }, c)).collect();
+        tried.sort_by(|a, b| a.0.total_cmp(&b.0));
+        tried.into_iter().map(|(_, c)| c).collect()
     }
 
     /// The same with its best law, if it also helps on data that took no part.
