@@ -27,6 +27,11 @@ pub struct Device {
 }
 
 impl Device {
+    /// Its model.
+    pub(crate) fn model(&self) -> &Model {
+        &self.model
+    }
+
     /// The same device once more.
     pub(crate) fn again(&self) -> Result<Self> {
         Self::new(Model::named(self.model.name())?, self.levels.clone())

@@ -89,8 +89,8 @@ fn campaign(branch: f64) -> (Campaign, Base) {
     (Campaign::new(recordings).expect("a good campaign"), base)
 }
 
-fn settings() -> Settings {
-    Settings::new(0.01, 1, &[])
+fn settings(base: &Base) -> Settings {
+    Settings::new(0.01, 1, &[], base)
 }
 
 fn named(found: &Diagnosis) -> Vec<&'static str> {
@@ -101,7 +101,7 @@ fn named(found: &Diagnosis) -> Vec<&'static str> {
 fn what_is_known_when_a_stage_begins_is_found() {
     let (campaign, base) = campaign(3.0);
     let all = Breaks::at(usize::MAX);
-    let whole = run(&campaign, &base, &[], &settings(), &all).expect("whole");
+    let whole = run(&campaign, &base, &[], &settings(&base), &all).expect("whole");
     let stages = all.stages();
     assert!(!whole.broken_off);
     assert_eq!(named(&whole), ["maxwell_relaxation"]);
@@ -110,7 +110,7 @@ fn what_is_known_when_a_stage_begins_is_found() {
     let laws = stages.iter().position(|s| *s == Stage::Laws).expect("other laws");
     for at in 0..stages.len() {
         let monitor = Breaks::at(at);
-        let found = run(&campaign, &base, &[], &settings(), &monitor);
+        let found = run(&campaign, &base, &[], &settings(&base), &monitor);
         assert_eq!(monitor.stages(), stages[..=at], "nothing begins after that");
         let Some(found) = found else {
             assert_eq!(stages[at], Stage::Base);
@@ -136,8 +136,8 @@ fn blank_campaigns_name_little_and_are_the_same_on_any_number_of_threads() {
     let with = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
         pool.install(|| {
-            let found = run(&campaign, &base, &[], &settings(), &()).expect("whole");
-            blank(&found, &base, &[], &settings(), 6, &()).expect("a base that fits itself")
+            let found = run(&campaign, &base, &[], &settings(&base), &()).expect("whole");
+            blank(&found, &base, &[], &settings(&base), 6, &()).expect("a base that fits itself")
         })
     };
     let one = with(1);
@@ -149,9 +149,10 @@ fn blank_campaigns_name_little_and_are_the_same_on_any_number_of_threads() {
 #[test]
 fn blank_campaigns_that_were_broken_off_do_not_count() {
     let (campaign, base) = campaign(0.0);
-    let found = run(&campaign, &base, &[], &settings(), &()).expect("whole");
+    let found = run(&campaign, &base, &[], &settings(&base), &()).expect("whole");
     let monitor = Breaks::at(1);
-    let blanks = blank(&found, &base, &[], &settings(), 1000, &monitor).expect("a base that fits itself");
+    let blanks =
+        blank(&found, &base, &[], &settings(&base), 1000, &monitor).expect("a base that fits itself");
     let stages = monitor.stages();
     assert_eq!(stages.last(), Some(&Stage::Blank(blanks.count, 1000)));
     assert!((2..1000).contains(&blanks.count), "{}", blanks.count);

@@ -79,7 +79,7 @@ pub(crate) fn diagnose_recordings<'py>(
                 (None, Some(force)) => Base::Given(force),
                 (None, None) => Base::fitted(&recordings, model, &groups)?,
             };
-            let settings = Settings::new(false_alarm, seed, &without);
+            let settings = Settings::new(false_alarm, seed, &without, &base);
             let Some(found) = diagnose::run(&campaign, &base, &own, &settings, link) else { return Ok(None) };
             let blanks = match blank {
                 0 => None,

@@ -6,6 +6,7 @@ use super::kept::Kept;
 use crate::error::Result;
 use crate::fitness::{Problem, Weights};
 use crate::model::Model;
+use crate::physics::Part;
 use crate::recording::Recording;
 
 /// Recordings that share the parameters of the base model.
@@ -46,6 +47,16 @@ impl Base {
             Ok(Group { members: members.clone(), coefficients: places(false), shapes: places(true), problem })
         });
         Ok(Self::Fitted(groups.collect::<Result<_>>()?))
+    }
+
+    /// True where a term is hysteretic.
+    pub(crate) fn is_hysteretic(&self) -> bool {
+        let model = match self {
+            Self::Fitted(groups) => groups.first().map(|g| g.problem.model()),
+            Self::Held(kept) => Some(kept.model()),
+            Self::Given(_) => None,
+        };
+        model.is_some_and(|m| m.terms().iter().any(|term| term.part() == Part::Hysteretic))
     }
 
     /// The same base on other recordings; `members` are the places of those that share parameters, group by

@@ -304,6 +304,7 @@ fn scale(factors: &Factors, parts: &[Part], columns: &mut [Vec<f64>]) {
     for (column, part) in columns.iter_mut().zip(parts) {
         let factor = match (part, &factors.damping) {
             (Part::Stiffness, _) => &factors.stiffness,
+            (Part::Hysteretic, _) if factors.hysteretic => &factors.stiffness,
             (Part::Damping, Some(damping)) => damping,
             _ => continue,
         };

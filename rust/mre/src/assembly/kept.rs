@@ -6,6 +6,7 @@ use super::simulate::{Addition, simulate};
 use crate::device::Device;
 use crate::effect::Sizes;
 use crate::error::Result;
+use crate::model::Model;
 use crate::physics::Part;
 use crate::recording::Recording;
 
@@ -25,6 +26,11 @@ impl Kept {
     /// A device with effects; `sizes` are those of the recordings that they were fitted to.
     pub fn with_effects(device: Device, effects: Vec<Addition>, sizes: Sizes) -> Self {
         Self { device, effects: Some((effects, sizes)) }
+    }
+
+    /// The model of the device.
+    pub(super) fn model(&self) -> &Model {
+        self.device.model()
     }
 
     /// The same once more.

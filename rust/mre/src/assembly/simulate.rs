@@ -102,7 +102,8 @@ fn pass(device: &Device, additions: &[Addition], recording: &Recording, scene: &
 fn factor(factors: &Factors, part: Part, i: usize) -> f64 {
     match part {
         Part::Stiffness => factors.stiffness[i],
+        Part::Hysteretic if factors.hysteretic => factors.stiffness[i],
         Part::Damping => factors.damping.as_ref().map_or(1.0, |d| d[i]),
-        Part::Offset => 1.0,
+        Part::Hysteretic | Part::Offset => 1.0,
     }
 }

@@ -47,6 +47,67 @@ impl<'a> Search<'_, 'a> {
         Some(best)
     }
 
+    /// The same number of effects, with the best candidate in the place of one that it makes unnecessary.
+    pub(super) fn replaced(&self, here: &Named<'a>) -> Option<Named<'a>> {
+        let next = here.next.as_ref()?;
+        let p_value = self.significant(here, next)?;
+        let noise = here.noise.clone();
+        let wider = Named::bare(next.assembly.clone(), next.fitted.clone(), noise);
+        let own = Candidate { assembly: here.assembly.clone(), fitted: here.fitted.clone() };
+        let tried = self.monitor.stage(Stage::Needless, || {
+            let places = self.given()..here.assembly.effects().len();
+            places.map(|place| (place, self.drop(&wider, place))).collect::<Vec<_>>()
+        })?;
+        let (place, best) = tried
+            .into_iter()
+            .filter(|(_, c)| c.criterion() < own.criterion() - CLEAR)
+            .min_by(|a, b| a.1.criterion().total_cmp(&b.1.criterion()))?;
+        let mut named = self.look(best.assembly, &best.fitted.unit, &here.noise)?;
+        named.p_values.clone_from(&here.p_values);
+        named.p_values.remove(place - self.given());
+        named.p_values.push(p_value);
+        self.best_law(named)
+    }
+
+    /// Several effects, each the best beside the others: the first were chosen before these were known.
+    pub(super) fn best_beside_each_other(&self, named: Named<'a>) -> Named<'a> {
+        let (mut here, mut place) = (named, self.given());
+        let mut tries = 2 * self.found(&here);
+        while self.found(&here) > 1 && place < here.assembly.effects().len() && tries > 0 {
+            if here.noise.hidden() {
+                break;
+            }
+            tries -= 1;
+            match self.better_at(&here, place) {
+                Some(better) => (here, place) = (better, self.given()),
+                None => place += 1,
+            }
+        }
+        here
+    }
+
+    /// The same with another effect in one place, if that leaves clearly less.
+    fn better_at(&self, here: &Named<'a>, place: usize) -> Option<Named<'a>> {
+        let own = Candidate { assembly: here.assembly.clone(), fitted: here.fitted.clone() };
+        let id = here.assembly.effects()[place].about().effect;
+        let data = self.data(&here.noise);
+        let (without, best) = self.monitor.stage(Stage::Pairs, || {
+            let Candidate { assembly, fitted } = self.drop(here, place);
+            let scores = scores(&assembly, data, &fitted.unit, self.settings);
+            let best = candidates(&assembly, data, &fitted.unit, &scores, REFITTED)
+                .into_iter()
+                .find(|c| c.added() != Some(id));
+            (Named { scores, ..Named::bare(assembly, fitted, here.noise.clone()) }, best)
+        })?;
+        let best = best.filter(|c| c.criterion() < own.criterion() - CLEAR)?;
+        let p_value = self.significant(&without, &best)?;
+        let mut named = self.look(best.assembly, &best.fitted.unit, &here.noise)?;
+        named.p_values.clone_from(&here.p_values);
+        named.p_values.remove(place - self.given());
+        named.p_values.push(p_value);
+        Some(named)
+    }
+
     /// Joint fit of a model with a law, from the law's two strongest starts.
     fn best_start(
         &self,

@@ -39,10 +39,12 @@ mod run;
 mod screen;
 mod search;
 mod settings;
+mod splits;
 mod step;
 mod unknown;
 mod unnamed;
 mod verdict;
+mod worth;
 
 pub use absorbed::Absorbed;
 pub use begin::Given;

@@ -55,8 +55,9 @@ impl<'a> Search<'_, 'a> {
     /// True where the base plainly misses, and a model does no better on held-out data than one without an
     /// effect: its criterion only counts what is left.
     fn idle(&self, with: &Candidate<'a>, without: &Candidate<'a>, noise: &Noise) -> bool {
+        let splits = self.splits.fit_for(&with.assembly);
         let held_out =
-            |c: &Candidate<'a>| prove(&c.assembly, noise, self.splits, &c.fitted, self.monitor).held_out_rms;
+            |c: &Candidate<'a>| prove(&c.assembly, noise, splits, &c.fitted, self.monitor).held_out_rms;
         self.begun.noise.hidden() && held_out(without) <= held_out(with)
     }
 }

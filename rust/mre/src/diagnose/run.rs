@@ -14,10 +14,11 @@ use super::next_test::{Doubt, propose};
 use super::normal::Rows;
 use super::null::Null;
 use super::point::forces;
-use super::prove::{Proof, Split, prove, splits};
+use super::prove::{Proof, prove};
 use super::screen::Score;
 use super::search::{Named, Search};
 use super::settings::Settings;
+use super::splits::{Split, Splits};
 use super::unknown::{self, Unknown};
 use super::verdict::Verdict;
 use crate::assembly::{Base, Campaign};
@@ -35,8 +36,8 @@ pub fn run<'a>(
 ) -> Option<Diagnosis<'a>> {
     let rows: Vec<Rows> = campaign.recordings().iter().map(|r| vec![r.scored()]).collect();
     let begun = monitor.stage(Stage::Base, || begin(campaign, base, given, &rows, monitor))?;
-    let whole = splits(campaign, base, false);
-    let search = Search { begun: &begun, rows: &rows, splits: &whole, settings, monitor };
+    let splits = Splits::of(campaign, base);
+    let search = Search { begun: &begun, rows: &rows, splits: &splits, settings, monitor };
     let found = search.run();
     let judged =
         monitor.stage(Stage::Verdict, || judge(&begun, found.clone(), &rows, settings.false_alarm, monitor));
@@ -65,14 +66,13 @@ pub fn run<'a>(
         named.fitted = base_fit.clone();
         named.p_values = Vec::new();
     }
-    let sharp = named.assembly.effects().iter().any(|e| e.in_one_recording());
-    let judged = if sharp { splits(campaign, base, true) } else { whole.clone() };
+    let judged = splits.fit_for(&named.assembly);
     let proofs = monitor.stage(Stage::Proof, || {
-        let proof = |of, fitted| prove(of, &named.noise, &judged, fitted, monitor);
+        let proof = |of, fitted| prove(of, &named.noise, judged, fitted, monitor);
         (proof(&begun.assembly, &base_fit), proof(&named.assembly, &named.fitted))
     });
     let mut doubt = Doubt { rivals: Vec::new(), hidden: absorbed.iter().map(|a| a.effect).collect() };
-    let effects = effects(&search, &named, &judged, proofs.as_ref().map(|p| &p.1), &mut doubt);
+    let effects = effects(&search, &named, judged, proofs.as_ref().map(|p| &p.1), &mut doubt);
     let next_test =
         monitor.stage(Stage::NextTest, || propose(&named, base, &doubt, &rows, settings, monitor));
     Some(Diagnosis {

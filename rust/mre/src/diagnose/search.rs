@@ -12,9 +12,10 @@ use super::least_squares::{Data, Fitted};
 use super::monitor::{Monitor, Stage};
 use super::noise::Noise;
 use super::normal::Rows;
-use super::prove::{Split, prove};
 use super::screen::Score;
 use super::settings::Settings;
+use super::splits::Splits;
+use super::worth::Improvement;
 use crate::assembly::Assembly;
 
 /// Most effects that are named.
@@ -25,14 +26,6 @@ pub(super) const REFITTED: usize = 8;
 pub(super) const FEW: usize = 3;
 /// Effects after the best that are tried where that fails.
 const LATER: usize = 3;
-/// A further effect lowers the held-out rms by more than this share of the noise's rms.
-const LEAST_OF_NOISE: f64 = 0.1;
-/// And by more than this share of what the first one lowered it.
-const LEAST_OF_FIRST: f64 = 0.2;
-/// And, where the noise is hidden, by more than this share of itself: every model of a real device can be bent a
-/// little closer.
-const LEAST_OF_REST: f64 = 0.1;
-
 /// A model with its fit and the noise that it leaves.
 #[derive(Clone)]
 pub struct Named<'a> {
@@ -50,18 +43,6 @@ pub struct Named<'a> {
     pub later: Vec<Candidate<'a>>,
     /// For each effect, the p-value with which it entered.
     pub p_values: Vec<f64>,
-}
-
-/// What a model improves, N.
-struct Improvement {
-    /// By how much it lowers the held-out rms.
-    held_out: f64,
-    /// The same on the samples trained on.
-    trained: f64,
-    /// Held-out rms before.
-    rest: f64,
-    /// Rms of the noise.
-    noise: f64,
 }
 
 impl<'a> Named<'a> {
@@ -84,7 +65,7 @@ impl<'a> Named<'a> {
 pub(super) struct Search<'s, 'a> {
     pub(super) begun: &'s Begun<'a>,
     pub(super) rows: &'s [Rows],
-    pub(super) splits: &'s [Split],
+    pub(super) splits: &'s Splits,
     pub(super) settings: &'s Settings,
     pub(super) monitor: &'s dyn Monitor,
 }
@@ -99,14 +80,21 @@ impl<'a> Search<'_, 'a> {
             return (Named::bare(assembly.clone(), fitted.clone(), noise.clone()), None);
         };
         let (mut first, mut removed_by_first) = (None, 0.0);
+        let mut replacements = 0;
         while self.found(&here) < MOST {
             if self.found(&here) > 0 {
                 let mut tried = self.in_turn(&here).into_iter();
-                let Some(best) = tried.find_map(|next| self.worth_adding(&here, next, removed_by_first))
-                else {
-                    break;
-                };
-                here = best;
+                if let Some(wider) = tried.find_map(|next| self.worth_adding(&here, next, removed_by_first)) {
+                    here = wider;
+                    continue;
+                }
+                let other = if replacements < MOST { self.replaced(&here) } else { None };
+                let Some(other) = other else { break };
+                here = other;
+                replacements += 1;
+                if self.found(&here) == 1 {
+                    first = Some(here.clone());
+                }
                 continue;
             }
             let Some(single) = here.next.as_ref().and_then(|next| self.wider(&here, next)) else { break };
@@ -118,7 +106,7 @@ impl<'a> Search<'_, 'a> {
             first = Some(best.clone());
             here = best;
         }
-        let named = self.without_the_needless(here);
+        let named = self.without_the_needless(self.best_beside_each_other(here));
         let more = self.found(&named) > 1;
         (named, first.filter(|_| more))
     }
@@ -137,33 +125,11 @@ impl<'a> Search<'_, 'a> {
     }
 
     /// A model with one more effect, if that is significant.
-    fn wider(&self, here: &Named<'a>, next: &Candidate<'a>) -> Option<Named<'a>> {
+    pub(super) fn wider(&self, here: &Named<'a>, next: &Candidate<'a>) -> Option<Named<'a>> {
         let p_value = self.significant(here, next)?;
         let mut wider = self.look(next.assembly.clone(), &next.fitted.unit, &here.noise)?;
         wider.p_values = here.p_values.iter().copied().chain([p_value]).collect();
         Some(wider)
-    }
-
-    /// Candidates beside a model in the order of trying: that of their errors on held-out samples where the
-    /// likelihood of a hidden noise says little.
-    fn in_turn<'n>(&self, here: &'n Named<'a>) -> Vec<&'n Candidate<'a>> {
-        let error = |c: &Candidate<'a>| {
-            prove(&c.assembly, &here.noise, self.splits, &c.fitted, self.monitor).held_out_rms
-        };
-        let all = here.next.iter().chain(&here.later);
-        let mut tried: Vec<_> =
-            all.map(|c| (if here.later.is_empty() { 0.0 } else { error(c) }, c)).collect();
-        tried.sort_by(|a, b| a.0.total_cmp(&b.0));
-        tried.into_iter().map(|(_, c)| c).collect()
-    }
-
-    /// The same with its best law, if it also helps on data that took no part.
-    fn worth_adding(&self, here: &Named<'a>, next: &Candidate<'a>, by_first: f64) -> Option<Named<'a>> {
-        let best = self.best_law(self.wider(here, next)?)?;
-        let Improvement { held_out, rest, noise, .. } = self.improvement(here, &best)?;
-        let of_rest = if best.noise.hidden() { LEAST_OF_REST * rest } else { 0.0 };
-        let least = (LEAST_OF_NOISE * noise).max(LEAST_OF_FIRST * by_first).max(of_rest);
-        (held_out >= least).then_some(best)
     }
 
     /// The recordings under some noise.
@@ -218,7 +184,7 @@ impl<'a> Search<'_, 'a> {
 
     /// The p-value of a candidate, if its effect passes Holm's threshold: the smallest p-value against the
     /// number of effects does, or the candidate's own does in its turn.
-    fn significant(&self, here: &Named<'a>, next: &Candidate<'a>) -> Option<f64> {
+    pub(super) fn significant(&self, here: &Named<'a>, next: &Candidate<'a>) -> Option<f64> {
         let id = next.added()?;
         let mut effects = by_effect(&here.scores);
         effects.sort_by(|a, b| a.1.total_cmp(&b.1));
@@ -233,21 +199,6 @@ impl<'a> Search<'_, 'a> {
             }
         }
         None
-    }
-
-    /// What one model improves of another.
-    fn improvement(&self, before: &Named<'a>, after: &Named<'a>) -> Option<Improvement> {
-        let proof = |n: &Named<'a>| prove(&n.assembly, &after.noise, self.splits, &n.fitted, self.monitor);
-        let data = self.data(&after.noise);
-        self.monitor.stage(Stage::Proof, || {
-            let (a, b) = (proof(before), proof(after));
-            Improvement {
-                held_out: a.held_out_rms - b.held_out_rms,
-                trained: a.train_rms - b.train_rms,
-                rest: a.held_out_rms,
-                noise: after.noise_rms(data),
-            }
-        })
     }
 }
 

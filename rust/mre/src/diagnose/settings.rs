@@ -1,5 +1,6 @@
 //! What a diagnosis is asked.
 
+use crate::assembly::Base;
 use crate::effect::{CATALOGUE, Effect};
 
 /// Rate of false alarms, seed, and the laws that may be named.
@@ -14,9 +15,12 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// The catalogue less the effects of these ids.
-    pub fn new(false_alarm: f64, seed: u64, ruled_out: &[String]) -> Self {
-        let open = |e: &&'static dyn Effect| !ruled_out.iter().any(|id| id == e.about().effect);
+    /// The catalogue beside a base model, less the effects of these ids.
+    pub fn new(false_alarm: f64, seed: u64, ruled_out: &[String], base: &Base) -> Self {
+        let hysteretic = base.is_hysteretic();
+        let open = |e: &&'static dyn Effect| {
+            (hysteretic || !e.on_springs_alone()) && !ruled_out.iter().any(|id| id == e.about().effect)
+        };
         Self { false_alarm, seed, laws: CATALOGUE.iter().copied().filter(open).collect() }
     }
 }

@@ -6,7 +6,7 @@ use super::search::Named;
 
 /// Shares of the rest above which names are not trusted, for one effect and for several: effects that are not
 /// there, bent towards one that is in no catalogue, leave more. Several bend further, and so have to fit better.
-const TRUSTED: [f64; 2] = [0.3, 0.01];
+const TRUSTED: [f64; 2] = [0.3, 0.03];
 /// A rest above these shares is more than an inexact form.
 const FORM: [f64; 2] = [0.02, 0.0025];
 /// The same where the base plainly misses: a real device has no exact form.

@@ -20,7 +20,9 @@ use super::inertia::Inertia;
 use super::mains::Mains;
 use super::maxwell::Maxwell;
 use super::mullins::{Mullins, Softening};
+use super::on_spring::OnSpring;
 use super::payne::{Amplitude, Payne};
+use super::pinched::Pinched;
 use super::pinching::Pinching;
 use super::quadratic_damping::QuadraticDamping;
 use super::remanence::Remanence;
@@ -92,6 +94,15 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &Mullins { by: Softening::Largest, whole: true },
     &Mullins { by: Softening::Power, whole: false },
     &Mullins { by: Softening::Power, whole: true },
+    &OnSpring {
+        law: &Mullins { by: Softening::PseudoElastic, whole: false },
+        name: "Ogden-Roxburgh, spring",
+    },
+    &OnSpring { law: &Mullins { by: Softening::Largest, whole: false }, name: "largest strain, spring" },
+    &OnSpring {
+        law: &Mullins { by: Softening::Power, whole: false },
+        name: "power of the largest strain, spring",
+    },
     &Degradation { by_energy: false, saturates: false, whole: false },
     &Degradation { by_energy: false, saturates: false, whole: true },
     &Degradation { by_energy: false, saturates: true, whole: false },
@@ -100,26 +111,55 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &Degradation { by_energy: true, saturates: false, whole: true },
     &Degradation { by_energy: true, saturates: true, whole: false },
     &Degradation { by_energy: true, saturates: true, whole: true },
+    &OnSpring {
+        law: &Degradation { by_energy: false, saturates: false, whole: false },
+        name: "path, spring",
+    },
+    &OnSpring {
+        law: &Degradation { by_energy: false, saturates: true, whole: false },
+        name: "path, saturating, spring",
+    },
+    &OnSpring {
+        law: &Degradation { by_energy: true, saturates: false, whole: false },
+        name: "energy, spring",
+    },
+    &OnSpring {
+        law: &Degradation { by_energy: true, saturates: true, whole: false },
+        name: "energy, saturating, spring",
+    },
     &Thermal { viscous: false, exponential: false, whole: false },
     &Thermal { viscous: false, exponential: false, whole: true },
     &Thermal { viscous: false, exponential: true, whole: false },
     &Thermal { viscous: false, exponential: true, whole: true },
     &Thermal { viscous: true, exponential: false, whole: false },
     &Thermal { viscous: true, exponential: false, whole: true },
+    &OnSpring { law: &Thermal { viscous: false, exponential: false, whole: false }, name: "linear, spring" },
+    &OnSpring {
+        law: &Thermal { viscous: false, exponential: true, whole: false },
+        name: "exponential, spring",
+    },
     &Payne { by: Amplitude::Forgotten, whole: false },
     &Payne { by: Amplitude::Forgotten, whole: true },
     &Payne { by: Amplitude::HalfCycle, whole: false },
     &Payne { by: Amplitude::HalfCycle, whole: true },
     &Payne { by: Amplitude::Structure, whole: false },
     &Payne { by: Amplitude::Structure, whole: true },
+    &OnSpring { law: &Payne { by: Amplitude::Forgotten, whole: false }, name: "Kraus, spring" },
+    &OnSpring { law: &Payne { by: Amplitude::HalfCycle, whole: false }, name: "last half cycle, spring" },
+    &OnSpring { law: &Payne { by: Amplitude::Structure, whole: false }, name: "structure, spring" },
     &StiffnessJump { whole: false, lasting: false },
     &StiffnessJump { whole: true, lasting: false },
     &StiffnessJump { whole: false, lasting: true },
     &StiffnessJump { whole: true, lasting: true },
+    &OnSpring { law: &StiffnessJump { whole: false, lasting: false }, name: "spring" },
+    &OnSpring { law: &StiffnessJump { whole: false, lasting: true }, name: "spring, lasting" },
     &Pinching { shifted: false, whole: false },
     &Pinching { shifted: false, whole: true },
     &Pinching { shifted: true, whole: false },
     &Pinching { shifted: true, whole: true },
+    &OnSpring { law: &Pinching { shifted: false, whole: false }, name: "centred, spring" },
+    &OnSpring { law: &Pinching { shifted: true, whole: false }, name: "shifted, spring" },
+    &Pinched,
     &Backlash::DeadZone,
     &Backlash::FreeDeadZone,
     &Backlash::Play,
@@ -144,14 +184,21 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &Creep::Slow,
     &Creep::Ageing,
     &Creep::AgeingWhole,
+    &OnSpring { law: &Creep::Ageing, name: "ageing, spring" },
     &FieldLag::One,
+    &FieldLag::Twice,
     &FieldLag::RiseAndFall,
     &Remanence::Play,
     &Remanence::Largest,
+    &Remanence::LargestSeen,
+    &Remanence::PlaysSeen,
     &FieldDependence::Square,
     &FieldDependence::Saturating,
     &FieldDependence::Scaled { whole: false },
     &FieldDependence::Scaled { whole: true },
+    &FieldDependence::ScaledSaturating,
+    &OnSpring { law: &FieldDependence::Scaled { whole: false }, name: "spring scaled" },
+    &OnSpring { law: &FieldDependence::ScaledSaturating, name: "spring scaled, saturating" },
 ];
 
 /// The law of this name of an effect.

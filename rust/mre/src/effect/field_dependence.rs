@@ -2,7 +2,7 @@
 //!
 //! | symbol | meaning | unit | range |
 //! |---|---|---|---|
-//! | s | share that is lost in the middle of the span of the current (negative: gained) | - | -3 to 0.95 |
+//! | s | share that is lost in the middle of the span of the current, or by saturation (negative: gained) | - | -3 to 0.95 |
 //! | `k_i`, `c_i`, `k_i3` | change of stiffness, damping and cubic stiffness | N/mm, N s/mm, N/mm^3 | any |
 //! | `I_s` | current of saturation | A | 10 % to 200 % of the span of the current |
 //!
@@ -26,6 +26,8 @@ pub(super) enum FieldDependence {
         /// Damping as well.
         whole: bool,
     },
+    /// The same by a factor that saturates.
+    ScaledSaturating,
 }
 
 /// What the parameters miss at every sample: a function of the current from 0 at its lowest to 1 at its highest.
@@ -57,6 +59,11 @@ impl Effect for FieldDependence {
                 equation: "F -> F (1 - s q), q = 4 (I - I_low)(I_high - I)/(I_high - I_low)^2",
                 ..square
             },
+            Self::ScaledSaturating => About {
+                law: "stiffness scaled, saturating",
+                equation: "k -> k (1 - s tanh((I - I_low)/I_s))",
+                ..square
+            },
         }
     }
 
@@ -69,18 +76,19 @@ impl Effect for FieldDependence {
             Self::Square | Self::Saturating => {
                 vec![signed("k_i", "N/mm"), signed("c_i", "N s/mm"), signed("k_i3", "N/mm^3")]
             }
-            Self::Scaled { .. } => Vec::new(),
+            Self::Scaled { .. } | Self::ScaledSaturating => Vec::new(),
         }
     }
 
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
+        let span = sizes.current_span();
+        let saturation = order_within("I_s", "A", 0.1 * span, 2.0 * span);
+        let share = within("s", "", -3.0, 0.95);
         match self {
             Self::Square => Vec::new(),
-            Self::Saturating => {
-                let span = sizes.current_span();
-                vec![order_within("I_s", "A", 0.1 * span, 2.0 * span)]
-            }
-            Self::Scaled { .. } => vec![within("s", "", -3.0, 0.95)],
+            Self::Saturating => vec![saturation],
+            Self::Scaled { .. } => vec![share],
+            Self::ScaledSaturating => vec![share, saturation],
         }
     }
 
@@ -91,6 +99,9 @@ impl Effect for FieldDependence {
                 [0.2, 0.5, 1.2].iter().map(|share| vec![share * sizes.current_span()]).collect()
             }
             Self::Scaled { .. } => vec![vec![-0.2], vec![0.2]],
+            Self::ScaledSaturating => {
+                [0.2, 0.5, 1.2].iter().map(|share| vec![-0.2, share * sizes.current_span()]).collect()
+            }
         }
     }
 
@@ -102,7 +113,7 @@ impl Effect for FieldDependence {
                 let ratio = span / shape[0];
                 departure(scene, |u| (u * ratio).tanh() - u * ratio.tanh())
             }
-            Self::Scaled { .. } => return Vec::new(),
+            Self::Scaled { .. } | Self::ScaledSaturating => return Vec::new(),
         };
         let mut columns = following(scene, &q);
         columns.push(q.iter().zip(scene.displacement).map(|(q, x)| q * x * x * x).collect());
@@ -110,8 +121,12 @@ impl Effect for FieldDependence {
     }
 
     fn factors(&self, scene: &Scene, shape: &[f64]) -> Option<Factors> {
-        let Self::Scaled { whole } = self else { return None };
-        let q = departure(scene, |u| 4.0 * u * (1.0 - u));
-        Some(Factors::losing(shape[0], &q, *whole))
+        let ratio = |saturation: f64| scene.sizes.current_span() / saturation;
+        let (q, whole) = match self {
+            Self::Scaled { whole } => (departure(scene, |u| 4.0 * u * (1.0 - u)), *whole),
+            Self::ScaledSaturating => (departure(scene, |u| (u * ratio(shape[1])).tanh()), false),
+            Self::Square | Self::Saturating => return None,
+        };
+        Some(Factors::losing(shape[0], &q, whole))
     }
 }

@@ -19,6 +19,8 @@ use crate::parameter::Parameter;
 pub(super) enum FieldLag {
     /// One time constant.
     One,
+    /// The same lag twice: coil and controller.
+    Twice,
     /// One for rise and one for fall.
     RiseAndFall,
 }
@@ -35,6 +37,12 @@ impl Effect for FieldLag {
         };
         match self {
             Self::One => one,
+            Self::Twice => About {
+                law: "second order",
+                equation: "dI_1/dt = (I - I_1)/tau_i, dI_f/dt = (I_1 - I_f)/tau_i, the device sees I_f",
+                reference: "Yang, Spencer, Carlson and Sain 2002",
+                ..one
+            },
             Self::RiseAndFall => About {
                 law: "rise and fall",
                 equation: "dI_f/dt = (I - I_f)/(tau_u where it rises, tau_d where it falls)",
@@ -50,14 +58,14 @@ impl Effect for FieldLag {
     fn shape(&self, _: &Sizes) -> Vec<Parameter> {
         let tau = |name| order_within(name, "s", 5e-4, 2.0);
         match self {
-            Self::One => vec![tau("tau_i")],
+            Self::One | Self::Twice => vec![tau("tau_i")],
             Self::RiseAndFall => vec![tau("tau_u"), tau("tau_d")],
         }
     }
 
     fn starts(&self, _: &Sizes) -> Vec<Vec<f64>> {
         match self {
-            Self::One => vec![vec![0.003], vec![0.01], vec![0.05], vec![0.2], vec![0.8]],
+            Self::One | Self::Twice => vec![vec![0.003], vec![0.01], vec![0.05], vec![0.2], vec![0.8]],
             Self::RiseAndFall => vec![vec![0.02, 0.1], vec![0.1, 0.02], vec![0.1, 0.5], vec![0.5, 0.1]],
         }
     }
@@ -66,6 +74,10 @@ impl Effect for FieldLag {
         let (current, time) = (scene.current?, scene.time);
         Some(match self {
             Self::One => lag(time, current, shape[0], current[0]),
+            Self::Twice => {
+                let once = lag(time, current, shape[0], current[0]);
+                lag(time, &once, shape[0], current[0])
+            }
             Self::RiseAndFall => scene.trace(current[0], |field, i| {
                 let target = 0.5 * (current[i - 1] + current[i]);
                 let tau = if target > field { shape[0] } else { shape[1] };

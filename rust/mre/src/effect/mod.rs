@@ -27,8 +27,10 @@ mod initial_state;
 mod mains;
 mod maxwell;
 mod mullins;
+mod on_spring;
 mod operators;
 mod payne;
+mod pinched;
 mod pinching;
 mod quadratic_damping;
 mod quantisation;
@@ -70,8 +72,10 @@ pub struct About {
 /// Factors on the terms of the base model, one value a sample.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Factors {
-    /// On the terms that store energy and on hysteretic terms.
+    /// On the terms that store energy.
     pub stiffness: Vec<f64>,
+    /// True where hysteretic terms are scaled like them.
+    pub hysteretic: bool,
     /// On the viscous terms; `None`: unchanged.
     pub damping: Option<Vec<f64>>,
 }
@@ -86,7 +90,7 @@ impl Factors {
             *k = k.max(LEAST_KEPT);
         }
         let damping = whole.then(|| kept.clone());
-        Self { stiffness: kept, damping }
+        Self { stiffness: kept, hysteretic: true, damping }
     }
 
     /// A share that is lost, times a state that goes from zero to about one.
@@ -152,6 +156,12 @@ pub trait Effect: Send + Sync {
     /// True where the effect is so slow that slow noise looks like it: it also has to exceed what the noise's
     /// spectrum extends to.
     fn slow(&self) -> bool {
+        false
+    }
+
+    /// True where the law scales the springs of a hysteretic base model and not its hysteretic force: beside
+    /// another base it is the plain law.
+    fn on_springs_alone(&self) -> bool {
         false
     }
 

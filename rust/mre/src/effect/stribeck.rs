@@ -5,21 +5,20 @@
 //! | `F_c` | friction force at speed | N | >= 0 |
 //! | `F_b` | excess of the break-away force over it | N | >= 0 |
 //! | `v_s` | Stribeck velocity | mm/s | 0.5 % to 60 % of the largest speed |
+//! | `z_y` | pre-sliding displacement | mm | 0.01 % to 5 % of the largest stroke |
+//! | `v_0` | velocity over which the sign is smoothed | mm/s | 0.001 % to 5 % of the largest speed |
 //!
-//! The sign of the velocity is Dahl's element with a pre-sliding of 0.1 % of the largest stroke, which holds
-//! its force at rest, or a steep function of the velocity, which does not.
+//! The sign of the velocity is that of Coulomb friction: Dahl's element, which holds its force at rest, or a
+//! smoothed sign, which does not.
 //! Reference: Armstrong-Helouvry, Dupont and Canudas de Wit, Automatica 30 (1994) 1083.
 //! Known limit: at speeds above three times `v_s` it is Coulomb friction.
 
-use super::operators::dahl;
+use super::coulomb::Coulomb;
 use super::{About, Effect, Scene, Sizes, order_within, positive};
 use crate::parameter::Parameter;
 
-/// Pre-sliding displacement, share of the largest stroke.
-const PRESLIDING: f64 = 1e-3;
-
-/// Speed at which a friction that rests without force has three quarters of it, share of the largest speed.
-const REST: f64 = 1e-4;
+/// Sharpness of the sign from which a fit starts, as shares of the largest stroke or speed.
+const SHARP: [f64; 2] = [1e-3, 1e-2];
 
 /// A law of the excess, with or without force at rest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -53,6 +52,11 @@ impl Fall {
 }
 
 impl Stribeck {
+    /// Coulomb friction with the same sign of the velocity.
+    fn plain(self) -> Coulomb {
+        if self.rests { Coulomb::Smoothed } else { Coulomb::Dahl }
+    }
+
     fn named(self, holds: &'static str, rests: &'static str) -> &'static str {
         if self.rests { rests } else { holds }
     }
@@ -90,19 +94,20 @@ impl Effect for Stribeck {
     }
 
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
-        vec![order_within("v_s", "mm/s", 0.005 * sizes.velocity, 0.6 * sizes.velocity)]
+        let fall = order_within("v_s", "mm/s", 0.005 * sizes.velocity, 0.6 * sizes.velocity);
+        let sign = self.plain().shape(sizes).into_iter();
+        let sign = sign.map(|p| if self.rests { Parameter { name: "v_0".into(), ..p } } else { p });
+        std::iter::once(fall).chain(sign).collect()
     }
 
     fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
-        [0.01, 0.03, 0.08, 0.2, 0.45].iter().map(|share| vec![share * sizes.velocity]).collect()
+        let falls = [0.01, 0.03, 0.08, 0.2, 0.45].map(|share| share * sizes.velocity);
+        let size = if self.rests { sizes.velocity } else { sizes.displacement };
+        falls.iter().flat_map(|fall| SHARP.map(|share| vec![*fall, share * size])).collect()
     }
 
     fn columns(&self, scene: &Scene, shape: &[f64]) -> Vec<Vec<f64>> {
-        let side: Vec<f64> = if self.rests {
-            scene.velocity.iter().map(|v| (v / (REST * scene.sizes.velocity)).tanh()).collect()
-        } else {
-            dahl(scene, PRESLIDING * scene.sizes.displacement)
-        };
+        let side = self.plain().columns(scene, &shape[1..]).swap_remove(0);
         let excess =
             side.iter().zip(scene.velocity).map(|(z, v)| z * self.fall.excess(v.abs() / shape[0])).collect();
         vec![side, excess]

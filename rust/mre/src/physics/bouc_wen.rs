@@ -16,7 +16,7 @@
 //! [`STEP`] asks for it.
 //! Known limit: short unload-reload cycles drift.
 
-use super::Term;
+use super::{Part, Term};
 use crate::extent::Extent;
 use crate::kernel::hysteretic;
 use crate::kernel::hysteretic_traces::{Motion, traces};
@@ -31,6 +31,10 @@ pub const STEP: f64 = 0.5;
 pub struct BoucWen;
 
 impl Term for BoucWen {
+    fn part(&self) -> Part {
+        Part::Hysteretic
+    }
+
     fn coefficient(&self, extent: &Extent) -> Parameter {
         Parameter {
             name: "kw".into(),

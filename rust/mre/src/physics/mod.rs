@@ -22,8 +22,10 @@ use crate::recording::Recording;
 /// What a term does with energy: effects scale terms by it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Part {
-    /// Stores it, or is hysteretic.
+    /// Stores it.
     Stiffness,
+    /// Stores some and loses the rest, whatever the speed.
+    Hysteretic,
     /// Viscous.
     Damping,
     /// Neither.

@@ -99,6 +99,9 @@ fn the_field_follows_a_step_of_the_current() {
         assert_eq!(field[400], 1.0);
         assert!((field[600] - (2.0 - (-1.0_f64).exp())).abs() < 0.01);
     }
+    // A step through two equal lags: 1 - (1 + t/tau) exp(-t/tau).
+    let twice = law("field_lag", "second order").current(&stage.scene(), &[0.1]).unwrap();
+    assert!((twice[600] - (2.0 - 2.0 * (-1.0_f64).exp())).abs() < 0.01);
 }
 
 #[test]
@@ -138,4 +141,19 @@ fn drift_and_hum_are_of_the_measurement() {
                 .all(|e| e.of_the_measurement())
         );
     }
+}
+
+#[test]
+fn a_remanent_current_stays_as_the_current_falls() {
+    let time = grid(1e-2, 4.0);
+    let current: Vec<f64> = time.iter().map(|t| 2.0 - 2.0 * (0.5 * t - 1.0).abs()).collect();
+    let stage = Stage::new(time, |t| (1.0 + 0.1 * t, 0.1), Some(current.clone()));
+    let largest = law("field_remanence", "largest past current, seen").current(&stage.scene(), &[0.3]);
+    let plays = law("field_remanence", "plays, seen").current(&stage.scene(), &[0.5, 0.6]);
+    let (largest, plays) = (largest.unwrap(), plays.unwrap());
+    close(largest[150], current[150], 1e-12);
+    close(largest[400], 0.3 * 2.0, 1e-12);
+    // Six plays of half widths 0.1 to 0.6 A: 0.35 A behind on the way up, ahead on the way down.
+    close(plays[150], current[150] - 0.5 * 0.35, 1e-12);
+    close(plays[390], current[390] + 0.5 * 0.35, 1e-12);
 }

@@ -1,0 +1,78 @@
+//! Whether a further effect is worth adding: it has to help on data that took no part.
+
+use super::candidates::Candidate;
+use super::monitor::Stage;
+use super::prove::prove;
+use super::search::{Named, Search};
+
+/// A further effect lowers the held-out rms by more than this share of the noise's rms.
+const LEAST_OF_NOISE: f64 = 0.1;
+/// And by more than this share of what the first one lowered it, unless it leaves next to nothing: what patches
+/// the form of the first leaves some.
+const LEAST_OF_FIRST: f64 = 0.2;
+/// Share of the mean square beyond the noise's that is next to nothing.
+const NOTHING: f64 = 0.1;
+/// And, where the noise is hidden, by more than this share of itself: every model of a real device can be bent a
+/// little closer.
+const LEAST_OF_REST: f64 = 0.1;
+
+/// What a model improves, N.
+pub(super) struct Improvement {
+    /// By how much it lowers the held-out rms.
+    pub(super) held_out: f64,
+    /// The same on the samples trained on.
+    pub(super) trained: f64,
+    /// Held-out rms before.
+    pub(super) rest: f64,
+    /// Rms of the noise.
+    pub(super) noise: f64,
+}
+
+impl<'a> Search<'_, 'a> {
+    /// Candidates beside a model in the order of trying: that of their errors on held-out samples where the
+    /// likelihood of a hidden noise says little.
+    pub(super) fn in_turn<'n>(&self, here: &'n Named<'a>) -> Vec<&'n Candidate<'a>> {
+        let error = |c: &Candidate<'a>| {
+            let splits = self.splits.fit_for(&c.assembly);
+            prove(&c.assembly, &here.noise, splits, &c.fitted, self.monitor).held_out_rms
+        };
+        let all = here.next.iter().chain(&here.later);
+        let mut tried: Vec<_> =
+            all.map(|c| (if here.later.is_empty() { 0.0 } else { error(c) }, c)).collect();
+        tried.sort_by(|a, b| a.0.total_cmp(&b.0));
+        tried.into_iter().map(|(_, c)| c).collect()
+    }
+
+    /// The same with its best law, if it also helps on data that took no part.
+    pub(super) fn worth_adding(
+        &self,
+        here: &Named<'a>,
+        next: &Candidate<'a>,
+        by_first: f64,
+    ) -> Option<Named<'a>> {
+        let best = self.best_law(self.wider(here, next)?)?;
+        let Improvement { held_out, rest, noise, .. } = self.improvement(here, &best)?;
+        let of_rest = if best.noise.hidden() { LEAST_OF_REST * rest } else { 0.0 };
+        let beyond = |rms: f64| rms * rms - noise * noise;
+        let whole = beyond(rest - held_out) < NOTHING * beyond(rest);
+        let of_first = if whole { 0.0 } else { LEAST_OF_FIRST * by_first };
+        let least = (LEAST_OF_NOISE * noise).max(of_first).max(of_rest);
+        (held_out >= least).then_some(best)
+    }
+
+    /// What one model improves of another.
+    pub(super) fn improvement(&self, before: &Named<'a>, after: &Named<'a>) -> Option<Improvement> {
+        let splits = self.splits.fit_for(&after.assembly);
+        let proof = |n: &Named<'a>| prove(&n.assembly, &after.noise, splits, &n.fitted, self.monitor);
+        let data = self.data(&after.noise);
+        self.monitor.stage(Stage::Proof, || {
+            let (a, b) = (proof(before), proof(after));
+            Improvement {
+                held_out: a.held_out_rms - b.held_out_rms,
+                trained: a.train_rms - b.train_rms,
+                rest: a.held_out_rms,
+                noise: after.noise_rms(data),
+            }
+        })
+    }
+}
