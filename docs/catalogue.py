@@ -20,7 +20,7 @@ EXAMPLES: Final[dict[str, tuple[str, dict[str, float]]]] = {
     "maxwell_relaxation": ("one branch", {"k_m": 4, "tau": 0.3}),
     "fractional_viscoelasticity": ("springpot", {"c_a": 4, "a": 0.4}),
     "coulomb_friction": ("Dahl", {"F_c": 8, "z_y": 0.1}),
-    "stribeck_friction": ("Gaussian", {"F_c": 5, "F_b": 6, "v_s": 5}),
+    "stribeck_friction": ("Gaussian", {"F_c": 5, "F_b": 6, "v_s": 5, "z_y": 0.004}),
     "hysteresis": ("Bouc-Wen", {"k_w": 12, "rho": 1, "sigma": 1, "n": 1.5}),
     "inertia": ("moving mass", {"m": 60}),
     "time_delay": ("pure delay", {"d": 0.03}),

@@ -9,11 +9,13 @@ from rig import BOUC_WEN, motion
 from test_effects import SIZES
 
 DEGRADED = {"s": 0.3}
+PATH = 550.0
+"""mm, of the sizes that the model was fitted with."""
 PATHS = {"stiffness": "path, stiffness", "spring": "path, spring", "whole": "path, whole force"}
 
 
-def diagnosed(effects: list[str], base: str, seed: int, **how: str) -> Diagnosis:
-    made = make_campaign(effects, base=base, strength=2.0, seed=seed, **how)
+def diagnosed(effects: list[str], base: str, seed: int, velocity: str = "given") -> Diagnosis:
+    made = make_campaign(effects, base=base, strength=2.0, seed=seed, velocity=velocity)
     recordings = [
         Recording(r.time, r.displacement, r.force, velocity=r.velocity, name=r.name) for r in made.recordings
     ]
@@ -22,7 +24,9 @@ def diagnosed(effects: list[str], base: str, seed: int, **how: str) -> Diagnosis
 
 def forces(law: str | None) -> np.ndarray:
     effects = (Effect("cyclic_degradation", law, DEGRADED),) if law else ()
-    model = Model("bouc_wen", (Level(None, BOUC_WEN),), effects=effects, sizes=SIZES if law else {})
+    model = Model(
+        "bouc_wen", (Level(None, BOUC_WEN),), effects=effects, sizes=SIZES | {"path": PATH} if law else {}
+    )
     return mre_core.simulate(model, motion())
 
 
@@ -34,7 +38,7 @@ def test_what_each_law_scales_of_a_hysteretic_base() -> None:
     hysteretic = alone - spring - damped - BOUC_WEN["F0"]
     speed = np.abs(moved.velocity)
     path = np.concatenate([[0.0], np.cumsum(np.diff(moved.time) * (speed[1:] + speed[:-1]) / 2)])
-    lost = DEGRADED["s"] * path / SIZES["path"]
+    lost = DEGRADED["s"] * path / PATH
     for law, scaled in (
         ("spring", spring),
         ("stiffness", spring + hysteretic),

@@ -25,6 +25,8 @@ const STAGES: [(usize, usize); 3] = [(4, 1), (2, 2), (1, 3)];
 const PASSES: usize = 4;
 /// Candidates closer than this in the criterion fit equally well.
 const TIE: f64 = 4.0;
+/// No law is exact: a difference below this share of what a candidate explains is no reason to prefer it.
+const EXACT: f64 = 3e-5;
 /// Laws of one effect that are fitted jointly.
 const LAWS_EACH: usize = 2;
 /// A law whose score is below this share of the best is not looked at further.
@@ -57,6 +59,11 @@ impl Candidate<'_> {
         let last = self.assembly.effects().last().map(|e| e.about());
         CATALOGUE.iter().position(|e| Some(e.about()) == last).unwrap_or(usize::MAX)
     }
+}
+
+/// Advantage in the criterion that counts between candidates that explain so much.
+pub(super) fn margin(least: f64, explained: f64) -> f64 {
+    least.max(EXACT * explained)
 }
 
 /// Time steps of the recordings, s.
@@ -212,8 +219,9 @@ pub(super) fn candidates<'a>(
     found.extend(rest);
     found.sort_by(|a, b| a.criterion().total_cmp(&b.criterion()));
     // In a tie the plainest is named: fewest parameters, then the first of the catalogue.
+    let explained = found.first().map_or(0.0, |best| null.point.fitted.left - best.fitted.left);
     let best = found.first().map_or(0.0, Candidate::criterion);
-    let tied = found.partition_point(|c| c.criterion() <= best + TIE);
+    let tied = found.partition_point(|c| c.criterion() <= best + margin(TIE, explained));
     found[..tied].sort_by_key(|c| (c.fitted.parameters(), c.place()));
     found
 }

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::candidates::{Candidate, candidates, joint, scores};
+use super::candidates::{Candidate, candidates, joint, margin, scores};
 use super::least_squares::Data;
 use super::monitor::Stage;
 use super::null::Null;
@@ -99,7 +99,8 @@ impl<'a> Search<'_, 'a> {
                 .find(|c| c.added() != Some(id));
             (Named { scores, ..Named::bare(assembly, fitted, here.noise.clone()) }, best)
         })?;
-        let best = best.filter(|c| c.criterion() < own.criterion() - CLEAR)?;
+        let clear = margin(CLEAR, without.fitted.left - own.fitted.left);
+        let best = best.filter(|c| c.criterion() < own.criterion() - clear)?;
         let p_value = self.significant(&without, &best)?;
         let mut named = self.look(best.assembly, &best.fitted.unit, &here.noise)?;
         named.p_values.clone_from(&here.p_values);
@@ -154,8 +155,10 @@ impl<'a> Search<'_, 'a> {
             pairs.iter().min_by(|a, b| one(a).total_cmp(&one(b))).map(|best| (one(best), &best.0))
         };
         let own = Candidate { assembly: single.assembly.clone(), fitted: single.fitted.clone() };
+        let explained = before.next.as_ref().map_or(0.0, |next| before.fitted.left - next.fitted.left);
+        let clear = margin(CLEAR, explained);
         let clearly =
-            |found: Option<(f64, _)>, known: f64| found.filter(|f| f.0 < known - CLEAR).map(|f| f.1);
+            |found: Option<(f64, _)>, known: f64| found.filter(|f| f.0 < known - clear).map(|f| f.1);
         let other = clearly(least(&|pair| pair.1.criterion()), second.criterion())
             .or_else(|| clearly(least(&|pair| pair.0.criterion()), own.criterion()));
         let Some(first) = other else { return Some(single) };

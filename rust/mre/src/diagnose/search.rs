@@ -3,8 +3,9 @@
 //! The law with the lowest whitened BIC enters if its effect's p-value passes Holm's threshold (Holm 1979).
 //! Then other laws of the effects already named are tried in their place, and the noise is estimated anew
 //! from the best model so far. A further effect enters only if it also helps on data that took no part. Pairs
-//! are searched from several firsts, because the best single effect may be neither of two; at the end an
-//! effect that the others make unnecessary leaves.
+//! are searched from several firsts, because the best single effect may be neither of two. An effect that a later one
+//! makes unnecessary is replaced by it; at the end each of several gives way to one that is better beside the
+//! others, and one that the others make unnecessary leaves.
 
 use super::begin::Begun;
 use super::candidates::{Candidate, by_effect, candidates, fit, noise_left, residuals, scores};

@@ -29,17 +29,21 @@ pub(super) struct Improvement {
 }
 
 impl<'a> Search<'_, 'a> {
-    /// Candidates beside a model in the order of trying: that of their errors on held-out samples where the
+    /// Candidates beside a model in the order of trying: that of what they improve on held-out samples, where the
     /// likelihood of a hidden noise says little.
     pub(super) fn in_turn<'n>(&self, here: &'n Named<'a>) -> Vec<&'n Candidate<'a>> {
-        let error = |c: &Candidate<'a>| {
-            let splits = self.splits.fit_for(&c.assembly);
-            prove(&c.assembly, &here.noise, splits, &c.fitted, self.monitor).held_out_rms
-        };
         let all = here.next.iter().chain(&here.later);
-        let mut tried: Vec<_> =
-            all.map(|c| (if here.later.is_empty() { 0.0 } else { error(c) }, c)).collect();
-        tried.sort_by(|a, b| a.0.total_cmp(&b.0));
+        if here.later.is_empty() {
+            return all.collect();
+        }
+        let gain = |c: &Candidate<'a>| {
+            let splits = self.splits.fit_for(&c.assembly);
+            let error =
+                |assembly, fitted| prove(assembly, &here.noise, splits, fitted, self.monitor).held_out_rms;
+            error(&here.assembly, &here.fitted) - error(&c.assembly, &c.fitted)
+        };
+        let mut tried: Vec<_> = all.map(|c| (gain(c), c)).collect();
+        tried.sort_by(|a, b| b.0.total_cmp(&a.0));
         tried.into_iter().map(|(_, c)| c).collect()
     }
 
