@@ -62,11 +62,7 @@ impl<'a> Search<'_, 'a> {
             .into_iter()
             .filter(|(_, c)| c.criterion() < own.criterion() - CLEAR)
             .min_by(|a, b| a.1.criterion().total_cmp(&b.1.criterion()))?;
-        let mut named = self.look(best.assembly, &best.fitted.unit, &here.noise)?;
-        named.p_values.clone_from(&here.p_values);
-        named.p_values.remove(place - self.given());
-        named.p_values.push(p_value);
-        self.best_law(named)
+        self.best_law(self.with_last(here, place, best, p_value)?)
     }
 
     /// Several effects, each the best beside the others: the first were chosen before these were known.
@@ -102,8 +98,19 @@ impl<'a> Search<'_, 'a> {
         let clear = margin(CLEAR, without.fitted.left - own.fitted.left);
         let best = best.filter(|c| c.criterion() < own.criterion() - clear)?;
         let p_value = self.significant(&without, &best)?;
-        let mut named = self.look(best.assembly, &best.fitted.unit, &here.noise)?;
-        named.p_values.clone_from(&here.p_values);
+        self.with_last(here, place, best, p_value)
+    }
+
+    /// A model whose last effect came in the place of one of another model.
+    fn with_last(
+        &self,
+        other: &Named<'a>,
+        place: usize,
+        model: Candidate<'a>,
+        p_value: f64,
+    ) -> Option<Named<'a>> {
+        let mut named = self.look(model.assembly, &model.fitted.unit, &other.noise)?;
+        named.p_values.clone_from(&other.p_values);
         named.p_values.remove(place - self.given());
         named.p_values.push(p_value);
         Some(named)
