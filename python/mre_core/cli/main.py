@@ -77,6 +77,8 @@ def _run(given: list[str]) -> int:
     try:
         with sigterm_as_ctrl_c(), warnings.catch_warnings():
             warnings.simplefilter("default")
+            # An interruption in the middle of an import leaves a file of the interpreter to it.
+            warnings.simplefilter("ignore", ResourceWarning)
             warnings.showwarning = _show_warning
             status = cli.main(spread(given), prog_name="mre-core", standalone_mode=False)
         return status if isinstance(status, int) else 0
