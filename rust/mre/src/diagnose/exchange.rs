@@ -49,7 +49,8 @@ impl<'a> Search<'_, 'a> {
 
     /// The same number of effects, with the best candidate in the place of one that it makes unnecessary.
     pub(super) fn replaced(&self, here: &Named<'a>) -> Option<Named<'a>> {
-        let next = here.next.as_ref()?;
+        // Likelihoods of a noise that is not known do not choose between models.
+        let next = here.next.as_ref().filter(|_| !here.noise.hidden())?;
         let p_value = self.significant(here, next)?;
         let noise = here.noise.clone();
         let wider = Named::bare(next.assembly.clone(), next.fitted.clone(), noise);
