@@ -52,8 +52,7 @@ impl<'a> Search<'_, 'a> {
         // Likelihoods of a noise that is not known do not choose between models.
         let next = here.next.as_ref().filter(|_| !here.noise.hidden())?;
         let p_value = self.significant(here, next)?;
-        let noise = here.noise.clone();
-        let wider = Named::bare(next.assembly.clone(), next.fitted.clone(), noise);
+        let wider = Named::bare(next.assembly.clone(), next.fitted.clone(), here.noise.clone());
         let own = Candidate { assembly: here.assembly.clone(), fitted: here.fitted.clone() };
         let tried = self.monitor.stage(Stage::Needless, || {
             let places = self.given()..here.assembly.effects().len();
@@ -69,12 +68,11 @@ impl<'a> Search<'_, 'a> {
     /// Several effects, each the best beside the others: the first were chosen before these were known.
     pub(super) fn best_beside_each_other(&self, named: Named<'a>) -> Named<'a> {
         let (mut here, mut place) = (named, self.given());
-        let mut tries = 2 * self.found(&here);
-        while self.found(&here) > 1 && place < here.assembly.effects().len() && tries > 0 {
-            if here.noise.hidden() {
+        for _ in 0..2 * self.found(&here) {
+            let last = place == here.assembly.effects().len();
+            if last || self.found(&here) < 2 || here.noise.hidden() {
                 break;
             }
-            tries -= 1;
             match self.better_at(&here, place) {
                 Some(better) => (here, place) = (better, self.given()),
                 None => place += 1,

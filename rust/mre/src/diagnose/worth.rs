@@ -4,6 +4,7 @@ use super::candidates::Candidate;
 use super::monitor::Stage;
 use super::prove::prove;
 use super::search::{Named, Search};
+use super::splits::Split;
 
 /// A further effect lowers the held-out rms by more than this share of the noise's rms.
 const LEAST_OF_NOISE: f64 = 0.1;
@@ -36,11 +37,20 @@ impl<'a> Search<'_, 'a> {
         if here.later.is_empty() {
             return all.collect();
         }
-        let gain = |c: &Candidate<'a>| {
+        let own = Candidate { assembly: here.assembly.clone(), fitted: here.fitted.clone() };
+        let error = |splits: &[Split], c: &Candidate<'a>| {
+            prove(&c.assembly, &here.noise, splits, &c.fitted, self.monitor).held_out_rms
+        };
+        // Errors of this model, once for each kind of split.
+        let mut before: Vec<(&[Split], f64)> = Vec::new();
+        let mut gain = |c: &Candidate<'a>| {
             let splits = self.splits.fit_for(&c.assembly);
-            let error =
-                |assembly, fitted| prove(assembly, &here.noise, splits, fitted, self.monitor).held_out_rms;
-            error(&here.assembly, &here.fitted) - error(&c.assembly, &c.fitted)
+            let known = before.iter().find(|(of, _)| std::ptr::eq(*of, splits)).map(|(_, known)| *known);
+            let of_own = known.unwrap_or_else(|| error(splits, &own));
+            if known.is_none() {
+                before.push((splits, of_own));
+            }
+            of_own - error(splits, c)
         };
         let mut tried: Vec<_> = all.map(|c| (gain(c), c)).collect();
         tried.sort_by(|a, b| b.0.total_cmp(&a.0));
