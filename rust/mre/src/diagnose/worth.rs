@@ -16,6 +16,8 @@ const NOTHING: f64 = 0.1;
 /// And, where the noise is hidden, by more than this share of itself: every model of a real device can be bent a
 /// little closer.
 const LEAST_OF_REST: f64 = 0.1;
+/// With its best law an effect improves no more than so many times what its first law does.
+const BEST_LAW: f64 = 2.0;
 
 /// What a model improves, N.
 pub(super) struct Improvement {
@@ -30,8 +32,8 @@ pub(super) struct Improvement {
 }
 
 impl<'a> Search<'_, 'a> {
-    /// Candidates beside a model in the order of trying: that of what they improve on held-out samples, where the
-    /// likelihood of a hidden noise says little.
+    /// Candidates beside a model in the order of trying: where the likelihood of a hidden noise says little, that of
+    /// what they improve on held-out samples, of those that promise enough.
     pub(super) fn in_turn<'n>(&self, here: &'n Named<'a>) -> Vec<&'n Candidate<'a>> {
         let all = here.next.iter().chain(&here.later);
         if here.later.is_empty() {
@@ -43,6 +45,7 @@ impl<'a> Search<'_, 'a> {
         };
         // Errors of this model, once for each kind of split.
         let mut before: Vec<(&[Split], f64)> = Vec::new();
+        // By what share a candidate lowers them.
         let mut gain = |c: &Candidate<'a>| {
             let splits = self.splits.fit_for(&c.assembly);
             let known = before.iter().find(|(of, _)| std::ptr::eq(*of, splits)).map(|(_, known)| *known);
@@ -50,9 +53,10 @@ impl<'a> Search<'_, 'a> {
             if known.is_none() {
                 before.push((splits, of_own));
             }
-            of_own - error(splits, c)
+            (of_own - error(splits, c)) / of_own
         };
-        let mut tried: Vec<_> = all.map(|c| (gain(c), c)).collect();
+        let least = LEAST_OF_REST / BEST_LAW;
+        let mut tried: Vec<_> = all.map(|c| (gain(c), c)).filter(|(gain, _)| *gain > least).collect();
         tried.sort_by(|a, b| b.0.total_cmp(&a.0));
         tried.into_iter().map(|(_, c)| c).collect()
     }

@@ -7,6 +7,9 @@
 use super::{About, Effect, Scene, Sizes, within};
 use crate::parameter::Parameter;
 
+/// From here on the elimination of a spline has the same factor, to the last bit.
+const SETTLED: usize = 32;
+
 /// A pure delay between the channels.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct TimeDelay;
@@ -17,19 +20,22 @@ pub(super) fn delayed(step: f64, series: &[f64], delay: f64) -> Vec<f64> {
     let bend = second_differences(series);
     let first_slope = series[1] - series[0] - bend[1] / 6.0;
     let last_slope = series[last] - series[last - 1] + bend[last - 1] / 6.0;
+    let shift = delay / step;
+    // Even spacing: every sample lies at the same share of its interval.
+    let b = shift.ceil() - shift;
+    let a = 1.0 - b;
+    let (curved_a, curved_b) = ((a.powi(3) - a) / 6.0, (b.powi(3) - b) / 6.0);
     (0..series.len())
         .map(|i| {
-            let at = i as f64 - delay / step;
+            let at = i as f64 - shift;
             if at < 0.0 {
                 return series[0] + at * first_slope;
             }
-            if at > last as f64 {
+            if at >= last as f64 {
                 return series[last] + (at - last as f64) * last_slope;
             }
-            let k = (at as usize).min(last - 1);
-            let (b, a) = (at - k as f64, 1.0 - (at - k as f64));
-            let curved = (a.powi(3) - a) * bend[k] + (b.powi(3) - b) * bend[k + 1];
-            a * series[k] + b * series[k + 1] + curved / 6.0
+            let k = (i as f64 - shift.ceil()) as usize;
+            a * series[k] + b * series[k + 1] + curved_a * bend[k] + curved_b * bend[k + 1]
         })
         .collect()
 }
@@ -37,15 +43,19 @@ pub(super) fn delayed(step: f64, series: &[f64], delay: f64) -> Vec<f64> {
 /// Second derivatives, per step squared, of the natural cubic spline through evenly spaced values.
 pub(super) fn second_differences(y: &[f64]) -> Vec<f64> {
     let n = y.len();
-    let (mut bend, mut share) = (vec![0.0; n], vec![0.0; n]);
-    // Tridiagonal: m[i-1] + 4 m[i] + m[i+1] = 6 (y[i-1] - 2 y[i] + y[i+1]).
+    // Tridiagonal: m[i-1] + 4 m[i] + m[i+1] = 6 (y[i-1] - 2 y[i] + y[i+1]). The shares of the elimination soon
+    // stay the same.
+    let mut shares = [0.0; SETTLED];
+    for i in 1..SETTLED {
+        shares[i] = 1.0 / (4.0 - shares[i - 1]);
+    }
+    let share = |i: usize| shares[i.min(SETTLED - 1)];
+    let mut bend = vec![0.0; n];
     for i in 1..n - 1 {
-        let pivot = 4.0 - share[i - 1];
-        share[i] = 1.0 / pivot;
-        bend[i] = (6.0 * (y[i - 1] - 2.0 * y[i] + y[i + 1]) - bend[i - 1]) / pivot;
+        bend[i] = (6.0 * (y[i - 1] - 2.0 * y[i] + y[i + 1]) - bend[i - 1]) * share(i);
     }
     for i in (1..n - 1).rev() {
-        bend[i] -= share[i] * bend[i + 1];
+        bend[i] -= share(i) * bend[i + 1];
     }
     bend
 }

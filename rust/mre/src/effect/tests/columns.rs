@@ -85,6 +85,29 @@ fn the_bouc_wen_law_is_that_of_the_base_model() {
 }
 
 #[test]
+fn a_slipping_element_follows_its_differential_equation() {
+    // Strokes that grow, with reversals before, in and after the slip.
+    let stage = Stage::new(grid(2e-3, 12.0), |t| (0.3 * t * (TAU * t).sin(), 1.0), None);
+    let x = stage.recording.displacement();
+    for [rho, depth, width, place] in [[0.7, 0.9, 0.15, 0.1], [3.0, 0.97, 0.8, 0.5], [20.0, 0.1, 0.1, 0.0]] {
+        let found = column("pinching", "Baber-Noori element", &stage.scene(), &[rho, depth, width, place]);
+        let rate = |w: f64, side: f64| {
+            let slip = depth * (-((w * side - place) / width).powi(2)).exp();
+            rho * (1.0 - w.abs().powf(1.5) * (w * side).signum()) * (1.0 - slip)
+        };
+        let mut w: f64 = 0.0;
+        for i in 1..x.len() {
+            assert!((found[i - 1] - w).abs() < 1e-4, "{} instead of {w} at {i}", found[i - 1]);
+            let h = (x[i] - x[i - 1]) / 100.0;
+            for _ in 0..100 {
+                let middle = w + 0.5 * h * rate(w, h.signum());
+                w += h * rate(middle, h.signum());
+            }
+        }
+    }
+}
+
+#[test]
 fn an_elastic_plastic_element_has_its_loop_area() {
     let (amplitude, r) = (2.0, 0.5);
     let stage = Stage::sine(amplitude, 1.0, 3.0);
