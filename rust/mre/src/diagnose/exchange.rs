@@ -5,8 +5,10 @@ use rayon::prelude::*;
 use super::candidates::{Candidate, candidates, joint, margin, scores};
 use super::least_squares::Data;
 use super::monitor::Stage;
+use super::noise::Noise;
 use super::null::Null;
 use super::search::{FEW, Named, REFITTED, Search};
+use super::worth::SLIGHT;
 use crate::effect::Effect;
 
 /// Candidates for the first of a pair.
@@ -33,11 +35,7 @@ impl<'a> Search<'_, 'a> {
                 .into_par_iter()
                 .filter_map(|e| self.best_start(&without, data, e))
                 .collect::<Vec<_>>();
-            let now = Candidate { assembly: best.assembly.clone(), fitted: best.fitted.clone() };
-            let better = tried
-                .into_iter()
-                .filter(|c| c.criterion() < now.criterion() - CLEAR)
-                .min_by(|a, b| a.criterion().total_cmp(&b.criterion()));
+            let better = self.better(&best.noise, &best.itself(), tried);
             if let Some(better) = self.monitor.whole(better)? {
                 let p_values = best.p_values.clone();
                 best = self.look(better.assembly, &better.fitted.unit, &best.noise)?;
@@ -47,13 +45,30 @@ impl<'a> Search<'_, 'a> {
         Some(best)
     }
 
+    /// The best of other candidates, if it is clearly better than a known one.
+    fn better(
+        &self,
+        noise: &Noise,
+        known: &Candidate<'a>,
+        mut others: Vec<Candidate<'a>>,
+    ) -> Option<Candidate<'a>> {
+        others.retain(|c| c.criterion() < known.criterion() - CLEAR);
+        others.sort_by(|a, b| a.criterion().total_cmp(&b.criterion()));
+        if !noise.hidden() {
+            return others.into_iter().next();
+        }
+        let least = (1.0 - SLIGHT) * self.held_out(noise, known);
+        let tried = others.into_iter().take(FEW).map(|c| (self.held_out(noise, &c), c));
+        tried.filter(|(error, _)| *error < least).min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, c)| c)
+    }
+
     /// The same number of effects, with the best candidate in the place of one that it makes unnecessary.
     pub(super) fn replaced(&self, here: &Named<'a>) -> Option<Named<'a>> {
         // Likelihoods of a noise that is not known do not choose between models.
         let next = here.next.as_ref().filter(|_| !here.noise.hidden())?;
         let p_value = self.significant(here, next)?;
         let wider = Named::bare(next.assembly.clone(), next.fitted.clone(), here.noise.clone());
-        let own = Candidate { assembly: here.assembly.clone(), fitted: here.fitted.clone() };
+        let own = here.itself();
         let tried = self.monitor.stage(Stage::Needless, || {
             let places = self.given()..here.assembly.effects().len();
             places.map(|place| (place, self.drop(&wider, place))).collect::<Vec<_>>()
@@ -83,7 +98,7 @@ impl<'a> Search<'_, 'a> {
 
     /// The same with another effect in one place, if that leaves clearly less.
     fn better_at(&self, here: &Named<'a>, place: usize) -> Option<Named<'a>> {
-        let own = Candidate { assembly: here.assembly.clone(), fitted: here.fitted.clone() };
+        let own = here.itself();
         let id = here.assembly.effects()[place].about().effect;
         let data = self.data(&here.noise);
         let (without, best) = self.monitor.stage(Stage::Pairs, || {
@@ -157,16 +172,19 @@ impl<'a> Search<'_, 'a> {
             })
             .collect();
         let pairs = self.monitor.whole(pairs)?;
-        let least = |one: &dyn Fn(&(Candidate, Candidate)) -> f64| {
-            pairs.iter().min_by(|a, b| one(a).total_cmp(&one(b))).map(|best| (one(best), &best.0))
+        let below = |size: &dyn Fn(&(Candidate<'a>, Candidate<'a>)) -> f64, least: f64| {
+            let tried = pairs.iter().map(|pair| (size(pair), &pair.0)).filter(|(size, _)| *size < least);
+            tried.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, first)| first)
         };
-        let own = Candidate { assembly: single.assembly.clone(), fitted: single.fitted.clone() };
-        let explained = before.next.as_ref().map_or(0.0, |next| before.fitted.left - next.fitted.left);
-        let clear = margin(CLEAR, explained);
-        let clearly =
-            |found: Option<(f64, _)>, known: f64| found.filter(|f| f.0 < known - clear).map(|f| f.1);
-        let other = clearly(least(&|pair| pair.1.criterion()), second.criterion())
-            .or_else(|| clearly(least(&|pair| pair.0.criterion()), own.criterion()));
+        let other = if single.noise.hidden() {
+            let least = (1.0 - SLIGHT) * self.held_out(&single.noise, second);
+            below(&|(_, pair)| self.held_out(&single.noise, pair), least)
+        } else {
+            let explained = before.next.as_ref().map_or(0.0, |next| before.fitted.left - next.fitted.left);
+            let clear = margin(CLEAR, explained);
+            below(&|(_, pair)| pair.criterion(), second.criterion() - clear)
+                .or_else(|| below(&|(first, _)| first.criterion(), single.itself().criterion() - clear))
+        };
         let Some(first) = other else { return Some(single) };
         let mut named = self.look(first.assembly.clone(), &first.fitted.unit, &single.noise)?;
         named.p_values = single.p_values;

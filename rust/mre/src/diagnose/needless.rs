@@ -28,7 +28,7 @@ impl<'a> Search<'_, 'a> {
         let mut here = named;
         let mut place = self.given();
         while self.found(&here) > 1 && place < here.assembly.effects().len() {
-            let now = Candidate { assembly: here.assembly.clone(), fitted: here.fitted.clone() };
+            let now = here.itself();
             let tried = self.monitor.stage(Stage::Needless, || {
                 let without = self.drop(&here, place);
                 let needless =

@@ -53,6 +53,11 @@ impl<'a> Named<'a> {
         Self { assembly, fitted, noise, scores, next: None, later, p_values }
     }
 
+    /// The model with its fit.
+    pub(super) fn itself(&self) -> Candidate<'a> {
+        Candidate { assembly: self.assembly.clone(), fitted: self.fitted.clone() }
+    }
+
     /// Rms in N of what the best candidate leaves, or the model itself where there is none.
     pub(super) fn noise_rms(&self, data: Data) -> f64 {
         rms(&match &self.next {
@@ -98,7 +103,8 @@ impl<'a> Search<'_, 'a> {
                 }
                 continue;
             }
-            let Some(single) = here.next.as_ref().and_then(|next| self.wider(&here, next)) else { break };
+            let single = self.in_turn(&here).into_iter().find_map(|next| self.wider(&here, next));
+            let Some(single) = single else { break };
             let Some((best, removed)) = self.best_of_first(&here, &single) else {
                 here = single;
                 break;

@@ -2,6 +2,7 @@
 
 use super::candidates::Candidate;
 use super::monitor::Stage;
+use super::noise::Noise;
 use super::prove::prove;
 use super::search::{Named, Search};
 use super::splits::Split;
@@ -18,6 +19,8 @@ const NOTHING: f64 = 0.1;
 const LEAST_OF_REST: f64 = 0.1;
 /// With its best law an effect improves no more than so many times what its first law does.
 const BEST_LAW: f64 = 2.0;
+/// Share of a held-out rms that does not count.
+pub(super) const SLIGHT: f64 = 0.03;
 
 /// What a model improves, N.
 pub(super) struct Improvement {
@@ -32,16 +35,21 @@ pub(super) struct Improvement {
 }
 
 impl<'a> Search<'_, 'a> {
+    /// Rms of a candidate on held-out samples, N.
+    pub(super) fn held_out(&self, noise: &Noise, c: &Candidate<'a>) -> f64 {
+        let splits = self.splits.fit_for(&c.assembly);
+        prove(&c.assembly, noise, splits, &c.fitted, self.monitor).held_out_rms
+    }
+
     /// Candidates beside a model in the order of trying: where the likelihood of a hidden noise says little, that of
-    /// what they improve on held-out samples, of those that promise enough.
+    /// what they improve on held-out samples, of those that promise enough; of equals the plainest first.
     pub(super) fn in_turn<'n>(&self, here: &'n Named<'a>) -> Vec<&'n Candidate<'a>> {
         let all = here.next.iter().chain(&here.later);
         if here.later.is_empty() {
             return all.collect();
         }
-        let own = Candidate { assembly: here.assembly.clone(), fitted: here.fitted.clone() };
-        let error = |splits: &[Split], c: &Candidate<'a>| {
-            prove(&c.assembly, &here.noise, splits, &c.fitted, self.monitor).held_out_rms
+        let error = |splits: &[Split]| {
+            prove(&here.assembly, &here.noise, splits, &here.fitted, self.monitor).held_out_rms
         };
         // Errors of this model, once for each kind of split.
         let mut before: Vec<(&[Split], f64)> = Vec::new();
@@ -49,15 +57,20 @@ impl<'a> Search<'_, 'a> {
         let mut gain = |c: &Candidate<'a>| {
             let splits = self.splits.fit_for(&c.assembly);
             let known = before.iter().find(|(of, _)| std::ptr::eq(*of, splits)).map(|(_, known)| *known);
-            let of_own = known.unwrap_or_else(|| error(splits, &own));
-            if known.is_none() {
-                before.push((splits, of_own));
-            }
-            (of_own - error(splits, c)) / of_own
+            let known = known.unwrap_or_else(|| {
+                before.push((splits, error(splits)));
+                before[before.len() - 1].1
+            });
+            1.0 - self.held_out(&here.noise, c) / known
         };
-        let least = LEAST_OF_REST / BEST_LAW;
-        let mut tried: Vec<_> = all.map(|c| (gain(c), c)).filter(|(gain, _)| *gain > least).collect();
+        let mut tried: Vec<_> = all.map(|c| (gain(c), c)).collect();
         tried.sort_by(|a, b| b.0.total_cmp(&a.0));
+        if self.found(here) > 0 {
+            tried.retain(|(gain, _)| *gain > LEAST_OF_REST / BEST_LAW);
+        }
+        let best = tried.first().map_or(0.0, |(gain, _)| *gain);
+        let tied = tried.partition_point(|(gain, _)| *gain >= best - SLIGHT);
+        tried[..tied].sort_by_key(|(_, c)| c.fitted.parameters());
         tried.into_iter().map(|(_, c)| c).collect()
     }
 
