@@ -92,17 +92,19 @@ impl Campaign {
     }
 }
 
-/// A recording whose displacement is the one that its velocity is the slope of.
+/// A recording whose displacement is the one that its velocity is the slope of, without the noise of the two.
 ///
-/// Otherwise the displacement noise, which the force does not follow, could be told from the two, and every
-/// effect with memory would seem to explain it.
+/// Otherwise that noise, which the force does not follow, could be told from the two, and every effect with
+/// memory would seem to explain it.
 fn of_one_motion(recording: &Recording) -> Arc<Recording> {
     let (time, x, v) = (recording.time(), recording.displacement(), recording.velocity());
-    let displacement = match recording.velocity_window() {
-        Some(_) => velocity::from_displacement(time, x).displacement,
-        None => velocity::without_noise(time, x, v),
+    let (displacement, velocity) = if recording.velocity_window().is_some() {
+        (velocity::from_displacement(time, x).displacement, v.to_vec())
+    } else {
+        let v = velocity::smoothed(time, v);
+        (velocity::without_noise(time, x, &v), v)
     };
-    Arc::new(recording.seen_with(displacement, v.to_vec(), None))
+    Arc::new(recording.seen_with(displacement, velocity, None))
 }
 
 fn current(recording: &Recording) -> Option<Vec<f64>> {

@@ -4,6 +4,7 @@
 use rayon::prelude::*;
 
 use super::begin::starts;
+use super::coherent::without_the_coherent;
 use super::drift;
 use super::held::Held;
 use super::least_squares::{Data, Fitted, refine, refine_at_most};
@@ -89,7 +90,7 @@ pub(super) fn noise_left(assembly: &Assembly, data: Data, fitted: &Fitted) -> No
     let left = residuals(assembly, data, fitted);
     match plain_mismatch::find(assembly, &left, data.noise) {
         Some(size) => Noise::beside_a_mismatch(left.len(), size),
-        None => Noise::of(&left, &steps(assembly), freedom),
+        None => Noise::of(&without_the_coherent(assembly, left), &steps(assembly), freedom),
     }
 }
 

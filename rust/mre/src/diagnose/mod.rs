@@ -13,6 +13,7 @@ mod block;
 mod bounded;
 mod candidates;
 mod clipped;
+mod coherent;
 mod diagnosis;
 mod distribution;
 mod drift;

@@ -7,7 +7,7 @@ use super::clipping::Clipping;
 use super::coulomb::Coulomb;
 use super::creep::Creep;
 use super::cubic::OddElastic;
-use super::degradation::Degradation;
+use super::degradation::{Degradation, Progress};
 use super::delay::TimeDelay;
 use super::drift::Drift;
 use super::end_stop::EndStop;
@@ -103,28 +103,32 @@ pub const CATALOGUE: &[&dyn Effect] = &[
         law: &Mullins { by: Softening::Power, whole: false },
         name: "power of the largest strain, spring",
     },
-    &Degradation { by_energy: false, saturates: false, whole: false },
-    &Degradation { by_energy: false, saturates: false, whole: true },
-    &Degradation { by_energy: false, saturates: true, whole: false },
-    &Degradation { by_energy: false, saturates: true, whole: true },
-    &Degradation { by_energy: true, saturates: false, whole: false },
-    &Degradation { by_energy: true, saturates: false, whole: true },
-    &Degradation { by_energy: true, saturates: true, whole: false },
-    &Degradation { by_energy: true, saturates: true, whole: true },
+    &Degradation { by: Progress::Path, saturates: false, whole: false },
+    &Degradation { by: Progress::Path, saturates: false, whole: true },
+    &Degradation { by: Progress::Path, saturates: true, whole: false },
+    &Degradation { by: Progress::Path, saturates: true, whole: true },
+    &Degradation { by: Progress::Work, saturates: false, whole: false },
+    &Degradation { by: Progress::Work, saturates: false, whole: true },
+    &Degradation { by: Progress::Work, saturates: true, whole: false },
+    &Degradation { by: Progress::Work, saturates: true, whole: true },
+    &Degradation { by: Progress::Heat, saturates: false, whole: false },
+    &Degradation { by: Progress::Heat, saturates: false, whole: true },
+    &Degradation { by: Progress::Heat, saturates: true, whole: false },
+    &Degradation { by: Progress::Heat, saturates: true, whole: true },
     &OnSpring {
-        law: &Degradation { by_energy: false, saturates: false, whole: false },
+        law: &Degradation { by: Progress::Path, saturates: false, whole: false },
         name: "path, spring",
     },
     &OnSpring {
-        law: &Degradation { by_energy: false, saturates: true, whole: false },
+        law: &Degradation { by: Progress::Path, saturates: true, whole: false },
         name: "path, saturating, spring",
     },
     &OnSpring {
-        law: &Degradation { by_energy: true, saturates: false, whole: false },
+        law: &Degradation { by: Progress::Work, saturates: false, whole: false },
         name: "energy, spring",
     },
     &OnSpring {
-        law: &Degradation { by_energy: true, saturates: true, whole: false },
+        law: &Degradation { by: Progress::Work, saturates: true, whole: false },
         name: "energy, saturating, spring",
     },
     &Thermal { viscous: false, exponential: false, whole: false },
@@ -142,10 +146,15 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &Payne { by: Amplitude::Forgotten, whole: true },
     &Payne { by: Amplitude::HalfCycle, whole: false },
     &Payne { by: Amplitude::HalfCycle, whole: true },
+    &Payne { by: Amplitude::MeanSquare, whole: false },
+    &Payne { by: Amplitude::MeanSquare, whole: true },
+    &Payne { by: Amplitude::Recording, whole: false },
+    &Payne { by: Amplitude::Recording, whole: true },
     &Payne { by: Amplitude::Structure, whole: false },
     &Payne { by: Amplitude::Structure, whole: true },
     &OnSpring { law: &Payne { by: Amplitude::Forgotten, whole: false }, name: "Kraus, spring" },
     &OnSpring { law: &Payne { by: Amplitude::HalfCycle, whole: false }, name: "last half cycle, spring" },
+    &OnSpring { law: &Payne { by: Amplitude::MeanSquare, whole: false }, name: "mean square, spring" },
     &OnSpring { law: &Payne { by: Amplitude::Structure, whole: false }, name: "structure, spring" },
     &StiffnessJump { whole: false, lasting: false },
     &StiffnessJump { whole: true, lasting: false },

@@ -4,9 +4,10 @@
 //! |---|---|---|---|
 //! | s | share that is lost at the longest path or the most energy (linear), or in the end (saturating) | - | 0 to 0.95 |
 //! | `P_c` | path at which 63 % of it is lost | mm | 1 % to 200 % of the longest path |
-//! | `E_c` | energy at which 63 % of it is lost | N mm | 1 % to 200 % of the most energy |
+//! | `E_c` | energy at which 63 % of it is lost | N mm (heat: mm^2/s) | 1 % to 200 % of the most energy |
 //!
-//! The energy is the integral of `|F v|` with the force of the base model alone.
+//! The energy is the integral of `|F v|` with the force of the base model alone, or the heat of a dashpot, in proportion
+//! to the integral of `v^2`.
 //! Reference: Baber and Wen, J. Eng. Mech. Div. 107 (1981) 1069.
 //! Known limit: over a few equal cycles it cannot be told from thermal softening.
 
@@ -14,53 +15,90 @@ use super::operators::integral;
 use super::{About, Effect, Factors, Scene, Sizes, order_within, within};
 use crate::parameter::Parameter;
 
+/// What degradation follows.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Progress {
+    /// The path travelled.
+    Path,
+    /// The energy put in.
+    Work,
+    /// The heat of a dashpot.
+    Heat,
+}
+
 /// A law of degradation.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Degradation {
-    /// True where it follows the energy, not the path.
-    pub(super) by_energy: bool,
+    /// What it follows.
+    pub(super) by: Progress,
     /// True where it saturates.
     pub(super) saturates: bool,
     /// True where damping degrades like stiffness.
     pub(super) whole: bool,
 }
 
-/// Path travelled since the first sample, mm.
-fn travelled(scene: &Scene) -> Vec<f64> {
-    integral(scene, |i| scene.velocity[i].abs())
-}
-
-/// Energy moved since the first sample, N mm.
-fn worked(scene: &Scene) -> Vec<f64> {
-    integral(scene, |i| (scene.force[i] * scene.velocity[i]).abs())
-}
-
 impl Degradation {
+    /// Progress since the first sample.
+    fn progress(self, scene: &Scene) -> Vec<f64> {
+        let (force, v) = (scene.force, scene.velocity);
+        match self.by {
+            Progress::Path => integral(scene, |i| v[i].abs()),
+            Progress::Work => integral(scene, |i| (force[i] * v[i]).abs()),
+            Progress::Heat => integral(scene, |i| v[i] * v[i]),
+        }
+    }
+
     /// Largest progress over the campaign.
     fn most(self, sizes: &Sizes) -> f64 {
-        if self.by_energy { sizes.energy } else { sizes.path }
+        match self.by {
+            Progress::Path => sizes.path,
+            Progress::Work => sizes.energy,
+            Progress::Heat => 0.5 * sizes.velocity * sizes.path,
+        }
     }
 }
 
 impl Effect for Degradation {
     fn about(&self) -> About {
-        let (law, equation) = match (self.by_energy, self.saturates, self.whole) {
-            (false, false, false) => ("path, stiffness", "k -> k (1 - s P/P_max), P the path travelled"),
-            (false, false, true) => ("path, whole force", "F -> F (1 - s P/P_max), P the path travelled"),
-            (false, true, false) => {
+        let (law, equation) = match (self.by, self.saturates, self.whole) {
+            (Progress::Path, false, false) => {
+                ("path, stiffness", "k -> k (1 - s P/P_max), P the path travelled")
+            }
+            (Progress::Path, false, true) => {
+                ("path, whole force", "F -> F (1 - s P/P_max), P the path travelled")
+            }
+            (Progress::Path, true, false) => {
                 ("path, saturating, stiffness", "k -> k (1 - s (1 - exp(-P/P_c))), P the path travelled")
             }
-            (false, true, true) => {
+            (Progress::Path, true, true) => {
                 ("path, saturating, whole force", "F -> F (1 - s (1 - exp(-P/P_c))), P the path travelled")
             }
-            (true, false, false) => ("energy, stiffness", "k -> k (1 - s E/E_max), E the integral of |F v|"),
-            (true, false, true) => ("energy, whole force", "F -> F (1 - s E/E_max), E the integral of |F v|"),
-            (true, true, false) => {
+            (Progress::Work, false, false) => {
+                ("energy, stiffness", "k -> k (1 - s E/E_max), E the integral of |F v|")
+            }
+            (Progress::Work, false, true) => {
+                ("energy, whole force", "F -> F (1 - s E/E_max), E the integral of |F v|")
+            }
+            (Progress::Work, true, false) => {
                 ("energy, saturating, stiffness", "k -> k (1 - s (1 - exp(-E/E_c))), E the integral of |F v|")
             }
-            (true, true, true) => (
+            (Progress::Work, true, true) => (
                 "energy, saturating, whole force",
                 "F -> F (1 - s (1 - exp(-E/E_c))), E the integral of |F v|",
+            ),
+            (Progress::Heat, false, false) => {
+                ("viscous heat, stiffness", "k -> k (1 - s E/E_max), E the integral of v^2")
+            }
+            (Progress::Heat, false, true) => {
+                ("viscous heat, whole force", "F -> F (1 - s E/E_max), E the integral of v^2")
+            }
+            (Progress::Heat, true, false) => (
+                "viscous heat, saturating, stiffness",
+                "k -> k (1 - s (1 - exp(-E/E_c))), E the integral of v^2",
+            ),
+            (Progress::Heat, true, true) => (
+                "viscous heat, saturating, whole force",
+                "F -> F (1 - s (1 - exp(-E/E_c))), E the integral of v^2",
             ),
         };
         About {
@@ -76,7 +114,11 @@ impl Effect for Degradation {
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
         let mut shape = vec![within("s", "", 0.0, 0.95)];
         if self.saturates {
-            let (name, unit) = if self.by_energy { ("E_c", "N mm") } else { ("P_c", "mm") };
+            let (name, unit) = match self.by {
+                Progress::Path => ("P_c", "mm"),
+                Progress::Work => ("E_c", "N mm"),
+                Progress::Heat => ("E_c", "mm^2/s"),
+            };
             let most = self.most(sizes);
             shape.push(order_within(name, unit, 0.01 * most, 2.0 * most));
         }
@@ -92,7 +134,7 @@ impl Effect for Degradation {
     }
 
     fn factors(&self, scene: &Scene, shape: &[f64]) -> Option<Factors> {
-        let mut progress = if self.by_energy { worked(scene) } else { travelled(scene) };
+        let mut progress = self.progress(scene);
         let most = self.most(scene.sizes);
         for p in &mut progress {
             *p = if self.saturates { -(-*p / shape[1]).exp_m1() } else { *p / most };

@@ -9,10 +9,11 @@
 //! | r | rate at which motion breaks the structure | 1/mm | 0.02 to 20 over the largest stroke |
 //!
 //! The amplitude is the largest displacement so far, forgotten exponentially; or half the stroke of the last
-//! half cycle; or there is none, and motion breaks a structure that time rebuilds.
+//! half cycle; or that of a sine with the mean square, forgotten exponentially; or that of the recording; or there is none, and motion breaks a structure that time rebuilds.
 //! Reference: Kraus, Rubber Chem. Technol. 51 (1978) 297; Mewis and Wagner, Adv. Colloid Interface Sci. 147 (2009) 214.
 //! Known limit: at one amplitude it is part of k0; where the amplitude only rises it is Mullins softening.
 
+use super::operators::{each, lag};
 use super::{About, Effect, Factors, Scene, Sizes, order_within, within};
 use crate::parameter::Parameter;
 
@@ -26,6 +27,10 @@ pub(super) enum Amplitude {
     Forgotten,
     /// The last half cycle.
     HalfCycle,
+    /// The mean square of the displacement, forgotten over a time.
+    MeanSquare,
+    /// The largest displacement of the recording, as of a steady test.
+    Recording,
     /// A structure that motion breaks and time rebuilds.
     Structure,
 }
@@ -68,6 +73,12 @@ fn half_cycle(scene: &Scene) -> Vec<f64> {
     })
 }
 
+/// Amplitude of a sine with the mean square of the displacement, forgotten over a time.
+fn mean_square(scene: &Scene, forget: f64) -> Vec<f64> {
+    let squares = each(scene.displacement, |x| x * x);
+    each(&lag(scene.time, &squares, forget, 0.0), |mean| (2.0 * mean.max(0.0)).sqrt())
+}
+
 /// Broken share of a structure that breaks at `rate` a millimetre and is rebuilt over a time; whole at rest.
 fn broken(scene: &Scene, rate: f64, rebuilt: f64) -> Vec<f64> {
     let (time, v) = (scene.time, scene.velocity);
@@ -97,6 +108,16 @@ impl Effect for Payne {
                 equation: "k -> k (1 - s a^m/(1 + a^m)), a = A/x_c, A half the stroke of the last half cycle",
                 ..forgotten
             },
+            Amplitude::MeanSquare => About {
+                law: law("mean square, stiffness", "mean square, whole force"),
+                equation: "k -> k (1 - s a^m/(1 + a^m)), a = A(t)/x_c, A^2 twice the mean of x^2 over t_a",
+                ..forgotten
+            },
+            Amplitude::Recording => About {
+                law: law("amplitude of the recording, stiffness", "amplitude of the recording, whole force"),
+                equation: "k -> k (1 - s a^m/(1 + a^m)), a = A/x_c, A the largest |x| of the recording",
+                ..forgotten
+            },
             Amplitude::Structure => About {
                 law: law("structure, stiffness", "structure, whole force"),
                 equation: "k -> k (1 - s b), db/dt = r |v| (1 - b) - b/t_a",
@@ -113,8 +134,8 @@ impl Effect for Payne {
         let t_a = order_within("t_a", "s", 0.05, (0.5 * sizes.duration).max(0.1));
         let m = order_within("m", "", 0.3, 2.0);
         match self.by {
-            Amplitude::Forgotten => vec![s, x_c, t_a, m],
-            Amplitude::HalfCycle => vec![s, x_c, m],
+            Amplitude::Forgotten | Amplitude::MeanSquare => vec![s, x_c, t_a, m],
+            Amplitude::HalfCycle | Amplitude::Recording => vec![s, x_c, m],
             Amplitude::Structure => vec![s, order_within("r", "1/mm", 0.02 / x, 20.0 / x), t_a],
         }
     }
@@ -127,8 +148,12 @@ impl Effect for Payne {
             times.iter().flat_map(|t| firsts.map(|first| make(first, *t))).collect()
         };
         match self.by {
-            Amplitude::Forgotten => grid([0.1 * x, 0.7 * x], &|x_c, t_a| vec![0.2, x_c, t_a, 1.0]),
-            Amplitude::HalfCycle => [0.05, 0.2, 0.8].iter().map(|share| vec![0.2, share * x, 1.0]).collect(),
+            Amplitude::Forgotten | Amplitude::MeanSquare => {
+                grid([0.1 * x, 0.7 * x], &|x_c, t_a| vec![0.2, x_c, t_a, 1.0])
+            }
+            Amplitude::HalfCycle | Amplitude::Recording => {
+                [0.05, 0.2, 0.8].iter().map(|share| vec![0.2, share * x, 1.0]).collect()
+            }
             Amplitude::Structure => grid([0.1 / x, 1.0 / x], &|r, t_a| vec![0.2, r, t_a]),
         }
     }
@@ -140,6 +165,11 @@ impl Effect for Payne {
         let lost = match self.by {
             Amplitude::Forgotten => kraus(forgotten(scene, shape[2]), shape[3]),
             Amplitude::HalfCycle => kraus(half_cycle(scene), shape[2]),
+            Amplitude::Recording => {
+                let largest = scene.displacement.iter().fold(0.0_f64, |far, x| far.max(x.abs()));
+                kraus(vec![largest; scene.len()], shape[2])
+            }
+            Amplitude::MeanSquare => kraus(mean_square(scene, shape[2]), shape[3]),
             Amplitude::Structure => broken(scene, shape[1], shape[2]),
         };
         Some(Factors::losing(shape[0], &lost, self.whole))

@@ -20,8 +20,11 @@ const TRIAL_SAMPLES: usize = 4_000;
 /// Widest half window in samples of what a displacement has beside its velocity.
 const WIDEST: usize = 200;
 
-/// Noise below this share of the displacement, rms, is left in it.
+/// Noise below this share of a series, rms, is left in it.
 const NEGLIGIBLE: f64 = 1e-4;
+
+/// Noise has a median square above this share of its mean square; that of Gaussian noise is 0.45.
+const EVERYWHERE: f64 = 0.1;
 
 /// A derived velocity and the window it came from.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,10 +54,25 @@ pub fn without_noise(time: &[f64], displacement: &[f64], velocity: &[f64]) -> Ve
     let beside: Vec<f64> = displacement.iter().zip(&travelled).map(|(x, s)| x - s).collect();
     let kept = smooth(time, &beside, WIDEST).displacement;
     let found: Vec<f64> = kept.iter().zip(&travelled).map(|(d, s)| d + s).collect();
-    let taken: f64 = found.iter().zip(displacement).map(|(a, b)| (a - b).powi(2)).sum();
-    let moved: f64 = displacement.iter().map(|x| x * x).sum();
     // The integral has an error as well.
-    if taken > NEGLIGIBLE.powi(2) * moved { found } else { displacement.to_vec() }
+    if apart(&found, displacement) { found } else { displacement.to_vec() }
+}
+
+/// A recorded velocity in mm/s less its noise, where it has some everywhere: jumps are none.
+pub fn smoothed(time: &[f64], velocity: &[f64]) -> Vec<f64> {
+    let found = smooth(time, velocity, WIDEST).displacement;
+    let mut taken: Vec<f64> = found.iter().zip(velocity).map(|(a, b)| (a - b).powi(2)).collect();
+    let mean = taken.iter().sum::<f64>() / taken.len() as f64;
+    let middle = taken.len() / 2;
+    let (_, median, _) = taken.select_nth_unstable_by(middle, f64::total_cmp);
+    if apart(&found, velocity) && *median > EVERYWHERE * mean { found } else { velocity.to_vec() }
+}
+
+/// True where what was taken off a series is noise worth the change.
+fn apart(found: &[f64], series: &[f64]) -> bool {
+    let taken: f64 = found.iter().zip(series).map(|(a, b)| (a - b).powi(2)).sum();
+    let size: f64 = series.iter().map(|x| x * x).sum();
+    taken > NEGLIGIBLE.powi(2) * size
 }
 
 /// Integral from the first sample, by cubics through the values with the slopes of their neighbours.
@@ -165,8 +183,17 @@ mod tests {
     }
 
     #[test]
-    fn a_displacement_without_noise_stays_to_the_bit() {
+    fn a_motion_without_noise_stays_to_the_bit() {
         let [time, shown, velocity, _] = shaken(0.0);
         assert_eq!(without_noise(&time, &shown, &velocity), shown);
+        assert_eq!(smoothed(&time, &velocity), velocity);
+    }
+
+    #[test]
+    fn noise_of_a_velocity_is_taken_off_and_its_jumps_stay() {
+        let [time, noisy, _, truth] = shaken(0.05);
+        assert!(rms(&smoothed(&time, &noisy), &truth) < 0.5 * rms(&noisy, &truth));
+        let triangle: Vec<f64> = truth.iter().map(|x| x.signum()).collect();
+        assert_eq!(smoothed(&time, &triangle), triangle);
     }
 }
