@@ -177,8 +177,14 @@ impl<'a> Search<'_, 'a> {
             tried.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, first)| first)
         };
         let other = if single.noise.hidden() {
-            let least = (1.0 - SLIGHT) * self.held_out(&single.noise, second);
-            below(&|(_, pair)| self.held_out(&single.noise, pair), least)
+            let error = |c: &Candidate<'a>| self.held_out(&single.noise, c);
+            let least = (1.0 - SLIGHT) * error(second);
+            // A first that needs no second is no first of a pair.
+            let of_pair = |(first, pair): &(Candidate<'a>, Candidate<'a>)| {
+                let size = error(pair);
+                if size < (1.0 - SLIGHT) * error(first) { size } else { f64::INFINITY }
+            };
+            below(&of_pair, least)
         } else {
             let explained = before.next.as_ref().map_or(0.0, |next| before.fitted.left - next.fitted.left);
             let clear = margin(CLEAR, explained);
