@@ -1,4 +1,4 @@
-"""What is noise and what is not, and softening that follows the heat of a dashpot or the amplitude of a test."""
+"""What is noise and what is not, and softening by the heat of a dashpot or by the amplitude of a test."""
 
 from collections.abc import Callable
 
@@ -7,7 +7,6 @@ import numpy as np
 from missing import SINES
 from mre_core import Recording
 from numpy.typing import NDArray
-from scipy.signal import lfilter
 
 Series = NDArray[np.float64]
 RATE, SECONDS = 200.0, 8.0
@@ -40,7 +39,9 @@ def recorded(
     size = 0.01 * np.sqrt(np.mean([np.mean(f**2) for *_, f in made])) * np.sqrt(1 - memory**2)
     found = []
     for k, (t, x, v, f) in enumerate(made):
-        noise = lfilter([size], [1, -memory], draw.normal(size=len(t) + 500))[500:]
+        shocks, noise = size * draw.normal(size=len(t)), np.zeros_like(t)
+        for i in range(1, len(t)):
+            noise[i] = memory * noise[i - 1] + shocks[i]
         seen = v + shaken * np.std(v) * draw.normal(size=len(t))
         found.append(Recording(t, x, f + noise, velocity=seen, name=f"sine {k}"))
     return found
@@ -54,7 +55,11 @@ def test_noise_of_a_recorded_velocity_is_no_physics() -> None:
 
 def test_a_sine_of_another_stiffness_is_no_narrow_band_of_noise() -> None:
     last = len(SINES) - 1
-    stiffer = sines(lambda k, t, _, __: 1 + STIFFER * ((k == last) & (t > SECONDS / 2)))
+
+    def softened(k: int, t: Series, _: Series, __: Series) -> Series:
+        return np.where((k == last) & (t > SECONDS / 2), 1 + STIFFER, np.ones_like(t))
+
+    stiffer = sines(softened)
     found = mre_core.diagnose(recorded(stiffer), "kelvin_voigt", seed=1)
     assert [e.id for e in found.effects] == ["stiffness_jump"]
 
