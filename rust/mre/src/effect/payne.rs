@@ -9,7 +9,8 @@
 //! | r | rate at which motion breaks the structure | 1/mm | 0.02 to 20 over the largest stroke |
 //!
 //! The amplitude is the largest displacement so far, forgotten exponentially; or half the stroke of the last
-//! half cycle; or that of a sine with the mean square, forgotten exponentially; or that of the recording; or there is none, and motion breaks a structure that time rebuilds.
+//! half cycle; or that of a sine with the mean square, forgotten exponentially; or the largest of the recording;
+//! or there is none, and motion breaks a structure that time rebuilds.
 //! Reference: Kraus, Rubber Chem. Technol. 51 (1978) 297; Mewis and Wagner, Adv. Colloid Interface Sci. 147 (2009) 214.
 //! Known limit: at one amplitude it is part of k0; where the amplitude only rises it is Mullins softening.
 
