@@ -62,11 +62,12 @@ impl Climb {
 
     /// State after a path from the yield behind.
     fn state(&self, path: f64) -> f64 {
+        let last = self.nodes.len() - 1;
         let far = path / STEP;
-        let i = far as usize;
-        if i + 1 >= self.nodes.len() {
-            return self.nodes[self.nodes.len() - 1].0;
+        if far >= last as f64 {
+            return self.nodes[last].0;
         }
+        let i = far as usize;
         let ((a, p), (b, q)) = (self.nodes[i], self.nodes[i + 1]);
         let (t, rise) = (far - i as f64, b - a);
         let (p, q) = (STEP * p, STEP * q);

@@ -108,6 +108,13 @@ fn a_slipping_element_follows_its_differential_equation() {
 }
 
 #[test]
+fn a_slipping_element_that_yields_at_once_stays_at_its_yield() {
+    let stage = Stage::sine(3.0, 1.0, 2.0);
+    let found = column("pinching", "Baber-Noori element", &stage.scene(), &[f64::MAX, 0.9, 0.15, 0.1]);
+    assert!(found[1..].iter().all(|w| (w.abs() - 1.0).abs() < 1e-5));
+}
+
+#[test]
 fn an_elastic_plastic_element_has_its_loop_area() {
     let (amplitude, r) = (2.0, 0.5);
     let stage = Stage::sine(amplitude, 1.0, 3.0);
