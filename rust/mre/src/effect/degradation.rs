@@ -6,8 +6,8 @@
 //! | `P_c` | path at which 63 % of it is lost | mm | 1 % to 200 % of the longest path |
 //! | `E_c` | energy at which 63 % of it is lost | N mm (heat: mm^2/s) | 1 % to 200 % of the most energy |
 //!
-//! The energy is the integral of `|F v|` with the force of the base model alone, or the heat of a dashpot, in proportion
-//! to the integral of `v^2`.
+//! The energy is the integral of `|F v|` with the force of the base model alone, or the heat of a dashpot, in
+//! proportion to the integral of `v^2`.
 //! Reference: Baber and Wen, J. Eng. Mech. Div. 107 (1981) 1069.
 //! Known limit: over a few equal cycles it cannot be told from thermal softening.
 
@@ -53,7 +53,7 @@ impl Degradation {
         match self.by {
             Progress::Path => sizes.path,
             Progress::Work => sizes.energy,
-            Progress::Heat => 0.5 * sizes.velocity * sizes.path,
+            Progress::Heat => sizes.heat(),
         }
     }
 }

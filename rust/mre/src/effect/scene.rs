@@ -143,6 +143,12 @@ impl Sizes {
         Self { current_varies: self.current_varies || differs, ..self }
     }
 
+    /// Integral of the squared velocity over the longest path at half the largest speed, mm^2/s: the heat of a
+    /// dashpot, in proportion.
+    pub fn heat(&self) -> f64 {
+        0.5 * self.velocity * self.path
+    }
+
     /// Highest less lowest current, A; 1 where it is not known or constant.
     pub fn current_span(&self) -> f64 {
         self.current.map(|(low, high)| high - low).filter(|span| *span > 0.0).unwrap_or(1.0)

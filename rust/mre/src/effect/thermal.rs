@@ -34,7 +34,7 @@ impl Thermal {
     fn temperature(self, scene: &Scene, tau: f64) -> Vec<f64> {
         let sizes = scene.sizes;
         let (power, most): (Vec<f64>, f64) = if self.viscous {
-            (scene.velocity.iter().map(|v| v * v).collect(), 0.5 * sizes.velocity * sizes.path)
+            (scene.velocity.iter().map(|v| v * v).collect(), sizes.heat())
         } else {
             (scene.force.iter().zip(scene.velocity).map(|(f, v)| (f * v).abs()).collect(), sizes.energy)
         };
