@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from mre_core import Model
+from mre_core.cli.main import cli, main
 from rig import BOUC_WEN, command, everything_in, made_of, motion, record, run_script, write_csv
 
 LONG_RUN = 10**6
@@ -90,3 +91,18 @@ def test_interrupt_of_the_command(tmp_path: Path) -> None:
     assert [level["current_A"] for level in content["levels"]] == [0.0]
     assert json.loads((out / "identification.json").read_text(encoding="utf-8"))["interrupted"] is True
     assert Model.load(out / "model.json").name == "bouc_wen"
+
+
+def test_interrupt_while_a_class_is_made(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    class Field:
+        def __set_name__(self, owner: type, name: str) -> None:
+            raise KeyboardInterrupt
+
+    def importing(*given: object, **more: object) -> None:
+        type("Late", (), {"field": Field()})
+
+    monkeypatch.setattr(cli, "main", importing)
+    assert main(["demo"]) == 130
+    assert capsys.readouterr().err == "mre-core: interrupted\n"

@@ -22,6 +22,14 @@ def sigterm_as_ctrl_c() -> Iterator[None]:
         signal.signal(signal.SIGTERM, before)
 
 
+def interrupted(error: BaseException) -> bool:
+    """Tell whether an interruption is behind an error: Python 3.11 wraps one while a class is made."""
+    behind: BaseException | None = error
+    while behind is not None and not isinstance(behind, KeyboardInterrupt):
+        behind = behind.__cause__
+    return behind is not None
+
+
 @contextmanager
 def uninterrupted() -> Iterator[None]:
     """Put off signals until a short piece of work is done."""

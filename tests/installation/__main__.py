@@ -10,6 +10,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 OLDEST, NEWEST = 11, 20
+ITSELF = "import sys; print(sys.executable)"
 # Of the package that is installed, not of this folder; what is optional is missing.
 FILES = ("test_identify.py", "test_models.py", "test_recording.py", "test_golden.py")
 USE = (
@@ -22,10 +23,14 @@ USE = (
 
 
 def pythons() -> Iterator[str]:
-    """Every CPython on the path that the wheel is for."""
+    """Every CPython on the path that the wheel is for, by its own file: what is found may be a launcher."""
     for minor in range(OLDEST, NEWEST):
-        if found := shutil.which(f"python3.{minor}"):
-            yield found
+        if found := shutil.which(name := f"python3.{minor}"):
+            asked = subprocess.run([found, "-c", ITSELF], capture_output=True, text=True, check=False)
+            if asked.returncode:
+                print(f"| {name} | does not start: {found} | none |", flush=True)
+            else:
+                yield asked.stdout.strip()
 
 
 def quietly(*command: str | Path, folder: Path) -> None:
@@ -35,6 +40,13 @@ def quietly(*command: str | Path, folder: Path) -> None:
     run = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, check=False)
     if run.returncode:
         sys.exit(f"{' '.join(map(str, command))}\n{run.stdout[-3000:]}{run.stderr[-3000:]}")
+
+
+def version(own: Path) -> str:
+    """Which Python an environment has."""
+    return subprocess.run(
+        [own / "python", "--version"], capture_output=True, text=True, check=True
+    ).stdout.strip()
 
 
 def main(wheel: Path) -> None:
@@ -54,7 +66,7 @@ def main(wheel: Path) -> None:
             files = [name for name in FILES if (folder / "tests" / name).exists()]
             tests = ["-m", "pytest", "-q", "-p", "no:cacheprovider", "--rootdir", ".", *files]
             quietly(own / "python", *tests, folder=folder / "tests")
-            print(f"| {Path(python).name} | {len(USE)} commands | {len(files)} files |", flush=True)
+            print(f"| {version(own)} | {len(USE)} commands | {len(files)} files |", flush=True)
 
 
 if __name__ == "__main__":

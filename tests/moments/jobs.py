@@ -51,6 +51,7 @@ IDENTIFY = [
 ]
 BATCH = ["batch", "in", "--model", "sinh", "--optimizer", "mafsa", "--no-figures", "--seed", "1"]
 LAWS = ["laws", "0.0A.csv", "0.5A.csv", "1.0A.csv", "--model", "bouc_wen", "--name-pattern", "{current}A"]
+DIAGNOSE = ["diagnose", "0.0A.csv", "0.5A.csv", "1.0A.csv", "--base", "sinh", "--quiet"]
 RUN = ["trial", "run", "trial", "--resume"]
 
 JOBS = {
@@ -58,6 +59,8 @@ JOBS = {
     "identify, figures": Job(
         one, [*IDENTIFY, "--optimizer", "pso", "--iterations", "2", "--out", "out"], 3.0
     ),
+    "diagnose": Job(campaign, [*DIAGNOSE, "--out", "out"], 6.0),
+    "diagnose, blank": Job(campaign, [*DIAGNOSE, "--blank", "20", "--out", "out"], 12.0),
     "laws": Job(campaign, [*LAWS, "--quiet", "--out", "out"], 6.0),
     "batch": Job(several, [*BATCH, "--out", "out"], 3.0),
     "trial run": Job(trial, [*RUN, "--workers", "2"], 6.0),

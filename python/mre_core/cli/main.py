@@ -15,7 +15,7 @@ import click
 
 from .. import __version__
 from ..errors import MreError, one_line
-from ..interruption import sigterm_as_ctrl_c
+from ..interruption import interrupted, sigterm_as_ctrl_c
 from .arguments import spread
 from .batch import batch
 from .demo import demo
@@ -115,6 +115,8 @@ def _missing(error: click.MissingParameter) -> str:
 
 
 def _unforeseen(error: Exception) -> int:
+    if interrupted(error):
+        return _fail("interrupted", 130)
     if os.environ.get(_DEBUG):
         raise error
     text = f"{type(error).__name__}: {error}"
