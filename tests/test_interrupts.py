@@ -93,16 +93,26 @@ def test_interrupt_of_the_command(tmp_path: Path) -> None:
     assert Model.load(out / "model.json").name == "bouc_wen"
 
 
-def test_interrupt_while_a_class_is_made(
+def test_interrupt_that_comes_out_of_an_import_as_another_error(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    class Field:
-        def __set_name__(self, owner: type, name: str) -> None:
-            raise KeyboardInterrupt
-
     def importing(*given: object, **more: object) -> None:
-        type("Late", (), {"field": Field()})
+        try:
+            signal.raise_signal(signal.SIGTERM)
+        except KeyboardInterrupt as stop:
+            raise RuntimeError("Error calling __set_name__") from stop
 
     monkeypatch.setattr(cli, "main", importing)
     assert main(["demo"]) == 130
     assert capsys.readouterr().err == "mre-core: interrupted\n"
+
+
+def test_an_error_without_a_signal_is_none_of_an_interruption(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def failing(*given: object, **more: object) -> None:
+        raise RuntimeError("no luck")
+
+    monkeypatch.setattr(cli, "main", failing)
+    assert main(["demo"]) == 1
+    assert "RuntimeError: no luck" in capsys.readouterr().err

@@ -46,9 +46,9 @@ def test_a_signal_waits_for_a_short_piece_of_work() -> None:
     code = """
 import os, signal
 from mre_core import Recording, StopReason
-from mre_core.interruption import sigterm_as_ctrl_c, uninterrupted
+from mre_core.interruption import Interruptions, uninterrupted
 signal.signal(signal.SIGINT, signal.default_int_handler)
-with sigterm_as_ctrl_c():
+with Interruptions():
     for number in (signal.SIGINT, signal.SIGTERM):
         done = False
         try:

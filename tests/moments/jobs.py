@@ -50,8 +50,9 @@ IDENTIFY = [
     "1",
 ]
 BATCH = ["batch", "in", "--model", "sinh", "--optimizer", "mafsa", "--no-figures", "--seed", "1"]
-LAWS = ["laws", "0.0A.csv", "0.5A.csv", "1.0A.csv", "--model", "bouc_wen", "--name-pattern", "{current}A"]
-DIAGNOSE = ["diagnose", "0.0A.csv", "0.5A.csv", "1.0A.csv", "--base", "sinh", "--quiet"]
+LAWS = ["laws", *CURRENTS, "--model", "bouc_wen"]
+CURRENTS = ["0.0A.csv", "0.5A.csv", "1.0A.csv", "--name-pattern", "{current}A"]
+DIAGNOSE = ["diagnose", *CURRENTS, "--base", "sinh", "--quiet", "--out", "out"]
 RUN = ["trial", "run", "trial", "--resume"]
 
 JOBS = {
@@ -59,8 +60,8 @@ JOBS = {
     "identify, figures": Job(
         one, [*IDENTIFY, "--optimizer", "pso", "--iterations", "2", "--out", "out"], 3.0
     ),
-    "diagnose": Job(campaign, [*DIAGNOSE, "--out", "out"], 6.0),
-    "diagnose, blank": Job(campaign, [*DIAGNOSE, "--blank", "20", "--out", "out"], 12.0),
+    "diagnose": Job(campaign, DIAGNOSE, 6.0),
+    "diagnose, blank": Job(campaign, [*DIAGNOSE, "--blank", "20"], 12.0),
     "laws": Job(campaign, [*LAWS, "--quiet", "--out", "out"], 6.0),
     "batch": Job(several, [*BATCH, "--out", "out"], 3.0),
     "trial run": Job(trial, [*RUN, "--workers", "2"], 6.0),

@@ -15,7 +15,7 @@ import click
 
 from .. import __version__
 from ..errors import MreError, one_line
-from ..interruption import interrupted, sigterm_as_ctrl_c
+from ..interruption import Interruptions
 from .arguments import spread
 from .batch import batch
 from .demo import demo
@@ -74,8 +74,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _run(given: list[str]) -> int:
+    signals = Interruptions()
     try:
-        with sigterm_as_ctrl_c(), warnings.catch_warnings():
+        with signals, warnings.catch_warnings():
             warnings.simplefilter("default")
             # An interruption in the middle of an import leaves a file of the interpreter to it.
             warnings.simplefilter("ignore", ResourceWarning)
@@ -102,7 +103,7 @@ def _run(given: list[str]) -> int:
     except OSError:  # of the output: a file's has its name by now
         raise
     except Exception as error:
-        return _unforeseen(error)
+        return _fail("interrupted", 130) if signals.came else _unforeseen(error)
 
 
 def _missing(error: click.MissingParameter) -> str:
@@ -115,8 +116,6 @@ def _missing(error: click.MissingParameter) -> str:
 
 
 def _unforeseen(error: Exception) -> int:
-    if interrupted(error):
-        return _fail("interrupted", 130)
     if os.environ.get(_DEBUG):
         raise error
     text = f"{type(error).__name__}: {error}"
