@@ -50,8 +50,8 @@ IDENTIFY = [
     "1",
 ]
 BATCH = ["batch", "in", "--model", "sinh", "--optimizer", "mafsa", "--no-figures", "--seed", "1"]
-LAWS = ["laws", *CURRENTS, "--model", "bouc_wen"]
 CURRENTS = ["0.0A.csv", "0.5A.csv", "1.0A.csv", "--name-pattern", "{current}A"]
+LAWS = ["laws", *CURRENTS, "--model", "bouc_wen"]
 DIAGNOSE = ["diagnose", *CURRENTS, "--base", "sinh", "--quiet", "--out", "out"]
 RUN = ["trial", "run", "trial", "--resume"]
 
