@@ -116,3 +116,24 @@ def test_an_error_without_a_signal_is_none_of_an_interruption(
     monkeypatch.setattr(cli, "main", failing)
     assert main(["demo"]) == 1
     assert "RuntimeError: no luck" in capsys.readouterr().err
+
+
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="needs timers of the system")
+def test_interrupt_waits_for_the_end_of_an_import(tmp_path: Path) -> None:
+    (tmp_path / "swallows.py").write_text(
+        "import signal\n"
+        "try:\n    signal.raise_signal(signal.SIGTERM)\n    print('waited')\n"
+        "except BaseException:\n    print('swallowed')\n"
+    )
+    code = f"""
+import sys, time
+from mre_core.cli.main import cli, main
+def late(*given, **more):
+    sys.path.insert(0, {str(tmp_path)!r})
+    import swallows
+    time.sleep(20)
+cli.main = late
+sys.exit(main(["demo"]))
+"""
+    run = run_script(code)
+    assert (run.returncode, run.stdout, run.stderr) == (130, "waited\n", "mre-core: interrupted\n")

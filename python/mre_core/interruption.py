@@ -8,12 +8,16 @@ from types import FrameType
 from typing import Any, Self
 
 _SIGNALS = (signal.SIGINT, signal.SIGTERM)
+_AGAIN = getattr(signal, "SIGALRM", None)
+_SOON = 0.02
+"""Seconds after which an interruption that fell into an import is raised again."""
 
 
 class Interruptions:
     """Let Ctrl-C and SIGTERM both raise KeyboardInterrupt in the main thread, and remember that one came.
 
-    One that falls into an import may come out of it as another error.
+    One that falls into an import waits for its end, where the system has timers: imports of others swallow
+    it, or let it out as another error.
     """
 
     def __init__(self) -> None:
@@ -26,15 +30,28 @@ class Interruptions:
                 # Ctrl-C may be ignored, or be somebody else's.
                 if number == signal.SIGTERM or signal.getsignal(number) is signal.default_int_handler:
                     self._before[number] = signal.signal(number, self._interrupt)
+            if _AGAIN is not None:
+                self._before[_AGAIN] = signal.signal(_AGAIN, self._interrupt)
         return self
 
     def __exit__(self, *error: object) -> None:
+        if _AGAIN in self._before:
+            signal.setitimer(signal.ITIMER_REAL, 0)
         for number, handler in self._before.items():
             signal.signal(number, handler)
 
     def _interrupt(self, number: int, frame: FrameType | None) -> None:
         self.came = True
-        raise KeyboardInterrupt
+        if _AGAIN in self._before and _importing(frame):
+            signal.setitimer(signal.ITIMER_REAL, _SOON)
+        else:
+            raise KeyboardInterrupt
+
+
+def _importing(frame: FrameType | None) -> bool:
+    while frame is not None and not frame.f_code.co_filename.startswith("<frozen importlib"):
+        frame = frame.f_back
+    return frame is not None
 
 
 @contextmanager
@@ -44,7 +61,7 @@ def uninterrupted() -> Iterator[None]:
         yield
         return
     held: list[tuple[int, FrameType | None]] = []
-    before = {number: signal.getsignal(number) for number in _SIGNALS}
+    before = {number: signal.getsignal(number) for number in (*_SIGNALS, _AGAIN) if number is not None}
     for number, handler in before.items():
         if callable(handler):  # one that is ignored, or ends the process, stays
             signal.signal(number, lambda *given: held.append(given))
