@@ -1,11 +1,16 @@
 """Identification of recordings whose truth is known."""
 
+import re
+from importlib import resources
+from pathlib import Path
+from types import MappingProxyType
 from typing import Any, Literal
 
 import mre_core
 import numpy as np
 import pytest
-from mre_core import Problem, Recording
+from mre_core import MreError, Problem, Recording
+from numpy.typing import ArrayLike
 from reference.exact import sinh_optimum
 from rig import BOUC_WEN, KELVIN_VOIGT, SINH, force_of, made_of, motion, record, rms
 
@@ -186,3 +191,75 @@ def test_excluded_samples_are_simulated_but_not_scored() -> None:
     assert whole.fitness(truth) == pytest.approx(50.0**2 * 30 / len(moved), rel=1e-6)
     # Zero only if z has its history from before the part that is scored.
     assert part.fitness(truth) < 1e-20
+
+
+@pytest.mark.parametrize(
+    "pair", [[0.1, 0.2], np.array([0.1, 0.2]), (0.1, 0.2)], ids=["list", "array", "tuple"]
+)
+def test_bounds_are_any_mapping_of_pairs(pair: ArrayLike) -> None:
+    problem = mre_core.Problem(two_currents()[0], bounds=MappingProxyType({"c0": pair}))
+    assert dict(zip(problem.names, zip(problem.lower, problem.upper, strict=True), strict=True))["c0"] == (
+        0.1,
+        0.2,
+    )
+
+
+@pytest.mark.parametrize(
+    ("bounds", "said"),
+    [
+        ({"c0": (0, 1, 2)}, "bounds of c0 is (0, 1, 2)"),
+        ({"c0": (None, 1)}, "bounds of c0 is (None, 1)"),
+        ([(0, 1)], "bounds is [(0, 1)]"),
+        ({3: (0, 1)}, "a name of bounds is 3"),
+    ],
+)
+def test_wrong_bounds_are_named(bounds: object, said: str) -> None:
+    with pytest.raises(MreError, match=re.escape(said)):
+        mre_core.Problem(two_currents()[0], bounds=bounds)  # type: ignore[arg-type]
+
+
+def test_weights_of_recordings_go_with_them_to_their_currents() -> None:
+    first, second, third = two_currents()
+    found = mre_core.identify([first, third, second], "kelvin_voigt", weights=[1.0, 5.0, 3.0])
+    alone = mre_core.identify([first, second], "kelvin_voigt", weights=[1.0, 3.0])
+    assert found.model.levels[0].parameters == alone.model.levels[0].parameters
+    with pytest.raises(MreError, match="weights is 2 numbers"):
+        mre_core.identify([first, second, third], "kelvin_voigt", weights=[1.0, 3.0])
+
+
+def test_a_recording_counts_once() -> None:
+    first = two_currents()[0]
+    with pytest.raises(MreError, match="given twice"):
+        mre_core.identify([first, first])
+
+
+def test_a_dead_force_channel_is_refused_by_name() -> None:
+    t = np.arange(512) / 256
+    dead = Recording(t, np.sin(6 * t), np.full(512, 3.0), name="dead")
+    with pytest.raises(MreError, match="'dead': the force is 3 N throughout"):
+        mre_core.identify(dead)
+
+
+def test_a_swarm_that_ran_out_of_time_is_not_compared() -> None:
+    run = mre_core.identify(two_currents()[0], "bouc_wen", optimizer="mafsa", time_limit=0.05, seed=1).runs[0]
+    assert run.reason == "time_limit"
+    assert run.gap is None
+
+
+def test_a_model_is_saved_and_read(tmp_path: Path) -> None:
+    model = mre_core.identify(two_currents()[0], "kelvin_voigt").model
+    model.save(tmp_path / "model.json")
+    assert mre_core.Model.load(tmp_path / "model.json") == model
+
+
+def test_the_package_is_typed() -> None:
+    assert resources.files("mre_core").joinpath("py.typed").is_file()
+
+
+def two_currents() -> list[Recording]:
+    model = made_of("bouc_wen", BOUC_WEN)
+    conditions = [(2.0, 0.0), (4.0, 0.0), (4.0, 1.0)]
+    return [
+        record(model, motion(a, rate=100, cycles=3, current=i), noise=0.3, seed=k, name=f"{k}")
+        for k, (a, i) in enumerate(conditions)
+    ]

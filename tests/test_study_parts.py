@@ -3,12 +3,14 @@
 import math
 import threading
 from collections.abc import Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
 from typing import Any
 
 import mre_core
 import numpy as np
 import pytest
 from mre_core import InputError, MreError, Problem, Recording
+from mre_core.cli.demo import _identify_all
 from mre_core.replica import CAMPAIGN
 from mre_core.study import Claim, Effort, Section, Study, Table, page, study
 from mre_core.study.campaign import as_campaign, replica
@@ -261,6 +263,33 @@ def test_a_crew_stops_all_jobs_with_one(error: type[BaseException]) -> None:
     with pytest.raises(error):
         crew.run("jobs", work, range(50))
     assert len(done) < 10  # those that had begun end; the others do not begin
+
+
+@pytest.mark.parametrize("run", ["crew", "demo"])
+def test_an_interruption_while_jobs_are_handed_out_stops_those_at_work(
+    run: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    submit = ThreadPoolExecutor.submit
+    futures: list[Future[Any]] = []
+
+    def interrupted(self: ThreadPoolExecutor, *job: Any) -> Future[Any]:
+        if len(futures) == 2:
+            raise KeyboardInterrupt
+        futures.append(submit(self, *job))
+        return futures[-1]
+
+    monkeypatch.setattr(ThreadPoolExecutor, "submit", interrupted)
+
+    def endless(i: int) -> None:
+        mre_core.pso(bowl, [(-1.0, 1.0)] * 2, max_iterations=10**6, seed=1, **crew.options)
+
+    crew = Crew(2)
+    with pytest.raises(KeyboardInterrupt):
+        if run == "crew":
+            crew.run("jobs", endless, range(50))
+        else:
+            _identify_all(own(), seed=1, iterations=10**6, threads=2)
+    assert all(future.done() for future in futures)
 
 
 def own() -> list[Recording]:

@@ -60,7 +60,7 @@ class Problem:
         cls,
         recordings: Recording | Sequence[Recording],
         model: str = "sinh",
-        bounds: Mapping[str, tuple[float, float]] | None = None,
+        bounds: Mapping[str, ArrayLike] | None = None,
         *,
         weights: str | ArrayLike | None = None,
     ) -> Self: ...
@@ -68,7 +68,7 @@ class Problem:
     def streamed(
         chunks: Iterable[Recording | tuple[ArrayLike, ArrayLike, ArrayLike]],
         largest_displacement: float,
-        bounds: Mapping[str, tuple[float, float]] | None = None,
+        bounds: Mapping[str, ArrayLike] | None = None,
         *,
         threads: int | None = None,
     ) -> Problem: ...

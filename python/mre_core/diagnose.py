@@ -25,7 +25,7 @@ from .findings import (
     rms_of_force,
     unknown_of,
 )
-from .grouping import each_of, group_by_current
+from .grouping import check_once, each_of, group_by_current
 from .minimise import draw_seed
 from .model import SIMULATED, Level, Model, simulate
 from .suitable import check_recordings
@@ -113,8 +113,7 @@ def diagnose(
     seed = draw_seed(seed)
     groups = group_by_current(everything)
     places = {id(recording): place for place, recording in enumerate(everything)}
-    if len(places) < len(everything):
-        raise InputError("a recording is given twice", wanted="each recording once")
+    check_once(everything)
     symbols = [] if name == SIMULATED else [symbol for symbol, _ in _core.parameters(name)]
     check_recordings(everything, 0 if fixed else len(symbols) * len(groups))
     text, before, after = _core.diagnose_recordings(

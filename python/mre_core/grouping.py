@@ -27,6 +27,12 @@ def each_of(recordings: Recording | Iterable[Recording]) -> Iterator[Recording]:
         yield recording
 
 
+def check_once(recordings: Sequence[Recording]) -> None:
+    """Refuse a recording that is there twice: it would count as more than was measured."""
+    if len({id(recording) for recording in recordings}) < len(recordings):
+        raise InputError("a recording is given twice", wanted="each recording once")
+
+
 def group_by_current(recordings: Sequence[Recording]) -> list[tuple[float | None, list[Recording]]]:
     """Group recordings that share their parameters, by rising current.
 

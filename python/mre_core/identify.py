@@ -4,11 +4,13 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
+import numpy as np
+
 from ._core import Problem, Recording, check_certifiable, parameters
 from .certificate import certificate
 from .errors import InputError, MreError
 from .fits import exact, hybrid
-from .grouping import each_of, group_by_current
+from .grouping import check_once, each_of, group_by_current
 from .measure import Fit, measure_fit
 from .minimise import draw_seed
 from .model import Level, Model
@@ -84,7 +86,7 @@ def identify(
     optimizer: Literal["hybrid", "exact", "mafsa", "afsa", "pso"] = "hybrid",
     seed: int | None = None,
     bounds: Mapping[str, tuple[float, float]] | None = None,
-    weights: Literal["samples", "force"] | None = None,
+    weights: Literal["samples", "force"] | Sequence[float] | None = None,
     certify: bool = False,
     on_level: Callable[[int, int, float | None], Any] | None = None,
     **options: Any,
@@ -108,8 +110,9 @@ def identify(
         Same seed, same result. Drawn and reported where not given.
     bounds : mapping of name to (lower, upper), optional
         Bounds that replace default ones, which follow from the recordings (see `Problem`).
-    weights : {"samples", "force"}, optional
-        Every sample counts the same (eq. 5), or every recording by its mean squared force.
+    weights : {"samples", "force"} or sequence of float, optional
+        Every sample counts the same (eq. 5), every recording by its mean squared force, or one number a
+        recording.
     certify : bool
         Prove for every run that nothing in the box is better (see `certificate`); `kelvin_voigt` and
         `sinh` only.
@@ -133,7 +136,14 @@ def identify(
     name = model.name if isinstance(model, Model) else model
     everything = list(each_of(recordings))
     groups = group_by_current(everything)
-    problems = [Problem(members, name, bounds, weights=weights) for _, members in groups]
+    check_once(everything)
+    for recording in everything:
+        _check_force(recording)
+    shares = _shares(weights, everything, [members for _, members in groups])
+    problems = [
+        Problem(members, name, bounds, weights=share)
+        for (_, members), share in zip(groups, shares, strict=True)
+    ]
     if certify:
         check_certifiable(problems[0])  # before time is spent on a search
     seed = draw_seed(seed)
@@ -159,10 +169,31 @@ def identify(
     return Identification(found, tuple(runs), fits, optimizer, seed, tuple(problems[: len(runs)]))
 
 
+def _check_force(recording: Recording) -> None:
+    """Refuse a channel that shows nothing: its errors have no measure."""
+    force = recording.force
+    if force is not None and np.ptp(force[slice(*recording.scored)]) == 0:
+        raise InputError(
+            f"recording '{recording.name}': the force is {force[0]:g} N throughout",
+            wanted="a force that changes with the motion",
+        )
+
+
+def _shares(weights: Any, recordings: list[Recording], groups: Sequence[list[Recording]]) -> list[Any]:
+    """Give every group its own of the weights, which are in the order of the recordings."""
+    if weights is None or isinstance(weights, str) or len(groups) == 1:
+        return [weights] * len(groups)
+    given = np.atleast_1d(weights)
+    if len(given) != len(recordings):
+        raise InputError(f"weights is {len(given)} numbers", wanted=f"{len(recordings)}, one a recording")
+    own = {id(recording): weight for recording, weight in zip(recordings, given, strict=True)}
+    return [np.array([own[id(recording)] for recording in members]) for members in groups]
+
+
 def _optimise(
     optimizer: str, problem: Problem, seed: int, start: list[float] | None, options: Mapping[str, Any]
 ) -> SwarmResult:
-    """Run one optimiser; a swarm that ran to its end is compared with the exact optimum."""
+    """Run one optimiser; a swarm that was not told to end is compared with the exact optimum."""
     shared = {key: options[key] for key in ("threads", "on_interrupt") if key in options}
     if optimizer == "exact":
         if surplus := sorted(key for key in set(options) - {*shared, "callback"} if options[key] is not None):
@@ -171,7 +202,7 @@ def _optimise(
     if optimizer == "hybrid":
         return hybrid(problem, seed=seed, **({"x0": start} | dict(options)))
     run = SWARMS[optimizer](problem, seed=seed, **({"x0": start} | dict(options)))
-    if run.reason in (StopReason.INTERRUPTED, StopReason.CALLBACK):
+    if run.reason in (StopReason.INTERRUPTED, StopReason.CALLBACK, StopReason.TIME_LIMIT):
         return run
     best = exact(problem, **shared)
     if best.reason is StopReason.INTERRUPTED:  # the swarm has ended, what belongs to it has not

@@ -5,6 +5,7 @@ import os
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any, Self
 
 import numpy as np
@@ -16,6 +17,7 @@ from .current_laws.law import Dependence
 from .current_laws.variable import check_over, series_of
 from .effects import Effect
 from .errors import ExtrapolationWarning, InputError, shown
+from .output import to_json, write_file
 from .stored import number, read_json
 from .tested import MOTION, beyond_tested
 
@@ -197,6 +199,21 @@ class Model:
             The file is missing, is not JSON, or is not a model.
         """
         return cls.from_dict(read_json(path), file=str(path))
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write a model file, which `load` and every command reads.
+
+        Raises
+        ------
+        InputError
+            The file cannot be written.
+        """
+        content = to_json(self.to_dict())
+
+        def write(place: Path) -> None:
+            place.write_text(content, encoding="utf-8")
+
+        write_file(path, write)
 
 
 def _ends(level: Level, name: str) -> dict[str, float]:

@@ -84,8 +84,8 @@ def _identify_all(recordings: list[Any], seed: int, iterations: int, threads: in
         ThreadPoolExecutor(threads or os.cpu_count()) as pool,
         progress(len(jobs), quiet=False) as (_, on_progress),
     ):
-        waiting = {pool.submit(run, *job): (job[0].name, *job[1:]) for job in jobs}
         try:
+            waiting = {pool.submit(run, *job): (job[0].name, *job[1:]) for job in jobs}
             for future in as_completed(waiting):
                 found[waiting[future]] = future.result()
                 evaluations += future.result().result.nfev

@@ -122,16 +122,24 @@ def counted(what: str, *, quiet: bool) -> Iterator[Callable[[int, int], None]]:
 
 
 def _columns() -> "tuple[ProgressColumn, ...]":
-    """Make the columns of a bar: what is done, how far it is, a note, and the times."""
-    from rich.progress import BarColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+    """Make the columns of a bar: what is done, how far it is, the times, and a note, which gives way."""
+    from rich.progress import BarColumn, Task, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+    from rich.table import Column
+    from rich.text import Text
+
+    class Note(TextColumn):
+        def render(self, task: Task) -> Text:
+            text = super().render(task)
+            text.no_wrap, text.overflow = True, "ellipsis"
+            return text
 
     return (
         TextColumn("{task.description}"),
-        BarColumn(),
-        TextColumn("{task.fields[note]}"),
-        TimeElapsedColumn(),
+        BarColumn(bar_width=12, table_column=Column(no_wrap=True)),
+        TimeElapsedColumn(table_column=Column(no_wrap=True)),
         TextColumn("left:"),
-        TimeRemainingColumn(),
+        TimeRemainingColumn(compact=True, table_column=Column(no_wrap=True)),
+        Note("{task.fields[note]}", table_column=Column()),
     )
 
 

@@ -100,10 +100,15 @@ def _underscored(content: Mapping[str, Any]) -> dict[str, Any]:
 
 def _value(key: str, setting: Any, folder: Path) -> Any:
     if isinstance(setting, dict):
-        return [f"{name}={text}" for name, text in setting.items()]
+        return [f"{name}={_joined(value)}" for name, value in setting.items()]
     if key == "recordings":
         return [path for text in setting for path in _expanded(text, folder)]
     return _rebased(setting, folder) if _is_path(key, setting) else setting
+
+
+def _joined(value: object) -> object:
+    """Write a pair of bounds as the option has it."""
+    return ":".join(map(str, value)) if isinstance(value, list) else value
 
 
 def _is_path(key: str, setting: object) -> bool:

@@ -139,6 +139,8 @@ def _type(key: str, parameter: click.Parameter) -> Any:
     if getattr(parameter, "is_flag", False):
         return bool | None
     if key in PAIRS:
+        if key == "bounds":
+            return list[str] | dict[str, str | list[float]] | None
         return list[str] | dict[str, str | int | float] | None
     if parameter.multiple or parameter.nargs != 1:
         return list[str] | None

@@ -46,8 +46,8 @@ class Crew:
         """Do all jobs; outcomes in the order of the jobs."""
         self._on_progress(what, 0, len(jobs))
         with ThreadPoolExecutor(self._threads) as pool:
-            waiting = [pool.submit(work, job) for job in jobs]
             try:
+                waiting = [pool.submit(work, job) for job in jobs]
                 for done, future in enumerate(as_completed(waiting), 1):
                     future.result()
                     self._on_progress(what, done, len(jobs))

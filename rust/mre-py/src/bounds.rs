@@ -1,19 +1,31 @@
 //! Boxes and starting points from Python.
 
-use std::collections::HashMap;
-
 use mre::parameter::{Bounds, Scale};
 use pyo3::prelude::*;
+use pyo3::types::PyMapping;
 
 use crate::array::{rows, vector};
 use crate::error::{setting, to_python};
 
-/// Bounds in the order of their names: the same error whatever the order of the hash.
-pub(crate) fn by_name(bounds: Option<HashMap<String, (f64, f64)>>) -> Vec<(String, f64, f64)> {
-    let mut bounds: Vec<_> =
-        bounds.unwrap_or_default().into_iter().map(|(name, (low, high))| (name, low, high)).collect();
-    bounds.sort_by(|a, b| a.0.cmp(&b.0));
-    bounds
+/// Bounds by name, in the order of the names: the same error whatever the order of the mapping.
+pub(crate) fn by_name(bounds: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<(String, f64, f64)>> {
+    let Some(bounds) = bounds else { return Ok(Vec::new()) };
+    let Ok(mapping) = bounds.cast::<PyMapping>() else {
+        return Err(setting("bounds", bounds.repr()?, "a mapping of name to (lower, upper)"));
+    };
+    let mut found = Vec::new();
+    for item in mapping.items()?.iter() {
+        let (name, pair): (Bound<'_, PyAny>, Bound<'_, PyAny>) = item.extract()?;
+        let Ok(name) = name.extract::<String>() else {
+            return Err(setting("a name of bounds", name.repr()?, "the symbol of a parameter"));
+        };
+        match vector(&name, &pair).unwrap_or_default()[..] {
+            [low, high] => found.push((name, low, high)),
+            _ => return Err(setting(&format!("bounds of {name}"), pair.repr()?, "(lower, upper)")),
+        }
+    }
+    found.sort_by(|a, b| a.0.cmp(&b.0));
+    Ok(found)
 }
 
 /// A box for a function.

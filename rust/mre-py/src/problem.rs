@@ -1,6 +1,5 @@
 //! `Problem`: the fitness of a model on recordings.
 
-use std::collections::HashMap;
 use std::sync::Arc;
 
 use mre::fitness::{Problem as Core, Weights};
@@ -67,7 +66,7 @@ impl Problem {
         py: Python<'_>,
         recordings: &Bound<'_, PyAny>,
         model: &str,
-        bounds: Option<HashMap<String, (f64, f64)>>,
+        bounds: Option<&Bound<'_, PyAny>>,
         weights: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
         let recordings = match recordings.extract::<Recording>() {
@@ -75,7 +74,7 @@ impl Problem {
             Err(_) => recordings.extract::<Vec<Recording>>()?,
         };
         let model = Model::named(model).map_err(to_python)?;
-        let bounds = by_name(bounds);
+        let bounds = by_name(bounds)?;
         let weights = to_weights(weights)?;
         let cores = recordings.iter().map(|r| Arc::clone(&r.inner)).collect();
         // A pool of its own: the global one does not survive a fork.
@@ -118,10 +117,10 @@ impl Problem {
         py: Python<'_>,
         chunks: &Bound<'_, PyAny>,
         largest_displacement: f64,
-        bounds: Option<HashMap<String, (f64, f64)>>,
+        bounds: Option<&Bound<'_, PyAny>>,
         threads: Option<i64>,
     ) -> PyResult<Self> {
-        let core = stream::read(py, chunks, largest_displacement, &by_name(bounds), threads)?;
+        let core = stream::read(py, chunks, largest_displacement, &by_name(bounds)?, threads)?;
         Ok(Self { inner: Arc::new(core), recordings: Vec::new() })
     }
 

@@ -25,6 +25,9 @@ const MOST: usize = 4;
 pub(super) const REFITTED: usize = 8;
 /// The same where only the best is wanted, roughly.
 pub(super) const FEW: usize = 3;
+/// A mismatch is found by the statistic of an effect or by tests of any mismatch: each way has half of the false
+/// alarms.
+pub(super) const WAYS: f64 = 2.0;
 /// Effects after the best that are tried where that fails.
 const LATER: usize = 3;
 /// A model with its fit and the noise that it leaves.
@@ -189,15 +192,15 @@ impl<'a> Search<'_, 'a> {
         Some(Named { assembly, fitted, noise, scores: found, next, later, p_values: Vec::new() })
     }
 
-    /// The p-value of a candidate, if its effect passes Holm's threshold: the smallest p-value against the
-    /// number of effects does, or the candidate's own does in its turn.
+    /// The p-value of a candidate, if its effect passes Holm's threshold at half of the false alarms: the smallest
+    /// p-value against the number of effects does, or the candidate's own does in its turn.
     pub(super) fn significant(&self, here: &Named<'a>, next: &Candidate<'a>) -> Option<f64> {
         let id = next.added()?;
         let mut effects = by_effect(&here.scores);
         effects.sort_by(|a, b| a.1.total_cmp(&b.1));
         let mut adjusted: f64 = 0.0;
         for (turn, (effect, p)) in effects.iter().enumerate() {
-            adjusted = adjusted.max(p * (effects.len() - turn) as f64);
+            adjusted = adjusted.max(WAYS * p * (effects.len() - turn) as f64);
             if adjusted > self.settings.false_alarm {
                 return None;
             }

@@ -2,7 +2,7 @@
 
 use super::candidates::by_effect;
 use super::missing::Mismatch;
-use super::search::Named;
+use super::search::{Named, WAYS};
 
 /// Shares of the rest above which names are not trusted, for one effect and for several: effects that are not
 /// there, bent towards one that is in no catalogue, leave more. Several bend further, and so have to fit better.
@@ -11,6 +11,9 @@ const TRUSTED: [f64; 2] = [0.3, 0.03];
 const FORM: [f64; 2] = [0.02, 0.0025];
 /// The same where the base plainly misses: a real device has no exact form.
 const PLAIN_FORM: f64 = 0.075;
+
+/// Tests of any mismatch.
+const OF_ANY: f64 = 3.0;
 
 /// Names are doubted only where the rest is beyond chance by far: a small one may be the noise's.
 const BEYOND_CHANCE: f64 = 1e-3;
@@ -84,7 +87,8 @@ impl Evidence {
         let Tests { first, rest, smooth, wandering, explained, change, surpassed } = *tests;
         let catalogue = by_effect(&named.scores);
         let holm = catalogue.iter().map(|(_, p)| *p).fold(1.0, f64::min) * catalogue.len() as f64;
-        let p_rest = (4.0 * rest.p_value.min(holm).min(smooth).min(wandering.p_value)).min(1.0);
+        let any = OF_ANY * rest.p_value.min(smooth).min(wandering.p_value);
+        let p_rest = (WAYS * any.min(holm)).min(1.0);
         let gain = named.next.as_ref().map_or(0.0, |n| (named.fitted.left - n.fitted.left).max(0.0));
         let left = rest.excess().max(wandering.excess()).max(gain);
         let share = if left > 0.0 { left / (left + explained) } else { 0.0 };
