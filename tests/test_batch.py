@@ -448,3 +448,11 @@ def test_what_is_no_table(tmp_path: Path) -> None:
     for path, problem in [(tmp_path, "cannot be read"), (tmp_path / "x.parquet", "is no Parquet file")]:
         with pytest.raises(InputError, match=problem):
             mre_core.read_results(path)
+
+
+def test_results_beside_the_recordings_are_no_items(tmp_path: Path) -> None:
+    folder = recordings(tmp_path / "in", 2)
+    first = mre_core.batch(folder, folder, **FAST)
+    with pytest.warns(mre_core.SkippedWarning, match="results of mre-core batch"):
+        second = mre_core.batch(folder, folder, **FAST)
+    assert_frame_equal(lasting(first), lasting(second))

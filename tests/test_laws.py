@@ -12,6 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mre_core import Dependence, ExtrapolationWarning, InputError, Law, Level, Model, Recording
+from mre_core.cli.laws import _Again
 from mre_core.current_laws.factors import Samples, SinhFactor
 from mre_core.current_laws.plots import plot_laws
 from mre_core.current_laws.structure import Structure
@@ -451,3 +452,30 @@ def test_damper_between_its_currents(cli: Cli, real_data: Path, tmp_path: Path) 
     (fit,) = json.loads((tmp_path / "out" / "laws.json").read_text())["predicted"]
     # 0.10 was measured, where the fit to that recording alone leaves 0.046.
     assert fit["relative_rms"] < 0.2
+
+
+def test_laws_are_chosen_beside_a_recording_whose_current_changes() -> None:
+    moved = motion(8.0, rate=128)
+    current = np.linspace(0.0, 3.0, len(moved))
+    x, v = moved.displacement, moved.velocity
+    c0, k0, alpha = (np.array([TRUTH[name](float(i)) for i in current]) for name in ("c0", "k0", "alpha"))
+    force = c0 * v + k0 * x + alpha * np.sinh(0.3 * x) + 0.5
+    rising = Recording(moved.time, x, force, velocity=v, current=current, name="rising")
+    found = mre_core.fit_laws([*campaign((0.0, 1.0, 2.0, 3.0)), rising], "sinh")
+    assert found.model.laws["beta"].law.kind == "constant"  # it cannot follow what changes within
+    assert found.model.laws["alpha"].law.kind == "saturating"
+
+
+def test_each_recording_counts_once(cli: Cli, tmp_path: Path) -> None:
+    write_csv(tmp_path / "8mm1Hz0A.csv", campaign((0.0,))[1])
+    status, _, said = cli("laws", str(tmp_path), str(tmp_path / "8mm1Hz0A.csv"), "--model", "sinh")
+    assert status == 2
+    assert "the file is given twice" in said
+
+
+def test_a_recording_that_changes_between_readings() -> None:
+    passes = iter([campaign((0.0,)), campaign((0.0,), noise=0.5)])
+    again = _Again(lambda _: iter(next(passes)))
+    assert len(list(again)) == 2
+    with pytest.raises(InputError, match="recording '3mm0A' changed while it was read"):
+        list(again)

@@ -172,7 +172,8 @@ def identify(
 def _check_force(recording: Recording) -> None:
     """Refuse a channel that shows nothing: its errors have no measure."""
     force = recording.force
-    if force is not None and np.ptp(force[slice(*recording.scored)]) == 0:
+    # A force of zero is refused by every problem.
+    if force is not None and force.any() and np.ptp(force[slice(*recording.scored)]) == 0:
         raise InputError(
             f"recording '{recording.name}': the force is {force[0]:g} N throughout",
             wanted="a force that changes with the motion",

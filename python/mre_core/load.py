@@ -114,10 +114,8 @@ def load_all(
     given = [paths] if isinstance(paths, str | os.PathLike) else list(paths)
     options = ReadOptions.of(read)
     named = {Path(path) for path in given}
-    files = find_files(given)
-    _check_once(files)
     found: list[Recording] = []
-    for file in files:
+    for file in find_files(given):
         try:
             found += _load_file(file, map, name_pattern, options, conditions, require_force=require_force)
         except NoTableError as error:
@@ -127,16 +125,6 @@ def load_all(
     if given and not found:
         raise InputError("no file holds a recording", file=str(given[0]), wanted="at least one recording")
     return found
-
-
-def _check_once(files: Sequence[Path]) -> None:
-    """Refuse a file that is named twice: it would count as more than was measured."""
-    seen: dict[Path, Path] = {}
-    for file in files:
-        if other := seen.get(file.resolve()):
-            also = "" if other == file else f", also as {other}"
-            raise InputError(f"the file is given twice{also}", file=str(file), wanted="each file once")
-        seen[file.resolve()] = file
 
 
 def _load_file(

@@ -95,7 +95,7 @@ def _check_workers(client: Any, address: str, threads: int) -> int:
     try:
         client.get_versions(check=True)
         versions = client.run(_version)
-    except (ImportError, ValueError) as error:
+    except Exception as error:  # what a worker raises may come as another kind
         problem = f"a worker or the scheduler has other software: {one_line(str(error))}"
         raise InputError(problem, wanted=wanted) from None
     for worker, version in sorted(versions.items()):

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 RESULTS = "results.parquet"
+MODELS = "models"
 _FIRST = ("item", "seed", "status", "error", "job", "model", "verdict", "effects", "p_base")
 _CONDITIONS = ("recordings", "samples", "current", "temperature", "amplitude", "velocity")
 _LAST = ("warnings", "digest", "settings", "version")

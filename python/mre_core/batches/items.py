@@ -10,6 +10,7 @@ from pathlib import Path
 from ..errors import InputError, SkippedWarning, listed
 from ..files.limits import is_text
 from ..files.readers import READERS
+from .columns import MODELS, RESULTS
 from .journal import JOURNAL
 
 _RESULTS = {
@@ -21,6 +22,8 @@ _RESULTS = {
     JOURNAL: "batch",
 }
 """Files that show which command wrote the folder that they are in."""
+_OWN = (RESULTS, MODELS)
+"""What a batch writes beside its journal, where that is in the folder of the recordings."""
 
 
 @dataclass(frozen=True)
@@ -74,7 +77,9 @@ def find_items(folder: str | os.PathLike[str], leave_out: Path | None = None) ->
     for entry in entries:
         if leave_out is not None and entry.resolve() == leave_out.resolve():
             continue
-        if command := _written_by(entry):
+        if entry.name in _OWN and (root / JOURNAL).is_file():
+            results[entry] = "batch"
+        elif command := _written_by(entry):
             results[entry] = command
         elif entry.is_dir():
             items.append(_item(entry.name, tuple(sorted(_recordings(entry, results)))))

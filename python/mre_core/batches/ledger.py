@@ -9,7 +9,7 @@ from typing import Any
 
 from .._core import __version__
 from ..output import staged
-from .columns import RESULTS, to_table
+from .columns import MODELS, RESULTS, to_table
 from .items import Item
 from .journal import Entry, Journal
 from .run import OnProgress
@@ -108,7 +108,7 @@ class Ledger:
             }
             rows.append(common | row)
         if models:
-            with staged(out / "models") as stage:
+            with staged(out / MODELS) as stage:
                 for file, content in models.items():
                     stage.write_json(file, content)
         with staged(out) as stage:

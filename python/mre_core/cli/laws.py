@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..errors import InputError
+from ..errors import InputError, SkippedWarning
+from ..files.table import NoTableError
 from .arguments import load_all, read_bounds, read_interval, read_parts
 from .options import common_options, fit_options, report_options, trim_options
 
@@ -79,20 +80,28 @@ def laws(
 
     from ..current_laws.fit import fit_laws
     from ..current_laws.plots import plot_laws
+    from ..files.readers import find_files
     from ..measure import measure_fit
     from ..output import Stage, staged, to_json
     from .progress import spinner
     from .settings import write_settings
 
+    files = find_files(recordings)
     interval = None if cut is None else read_interval(cut)
     parts = read_parts(exclude)
 
     def read(*, again: bool) -> "Iterator[Recording]":
-        for path in recordings:  # one at a time: a campaign need not fit into memory
+        for path in files:  # one at a time: a campaign need not fit into memory
             with warnings.catch_warnings():
                 if again:  # what there is to say has been said
                     warnings.simplefilter("ignore")
-                loaded = load_all([path], mapping, conditions, name_pattern, reading)
+                try:
+                    loaded = load_all([str(path)], mapping, conditions, name_pattern, reading)
+                except NoTableError as error:
+                    if str(path) in recordings:
+                        raise
+                    warnings.warn(f"passed over: {error}", SkippedWarning, stacklevel=2)
+                    continue
             for found in loaded:
                 found = found if interval is None else found.cut(*interval)
                 yield found.exclude(*parts) if parts else found
@@ -123,15 +132,34 @@ def laws(
 
 
 class _Again:
-    """Recordings that are read anew whenever they are gone through."""
+    """Recordings that are read anew whenever they are gone through, and have to be the same then."""
 
     def __init__(self, read: "Callable[[bool], Iterator[Recording]]") -> None:
         self._read = read
+        self._first: list[bytes] = []
         self._again = False
 
     def __iter__(self) -> "Iterator[Recording]":
         again, self._again = self._again, True
-        return self._read(again)
+        for place, recording in enumerate(self._read(again)):
+            content = _digest(recording)
+            if not again:
+                self._first.append(content)
+            elif place >= len(self._first) or content != self._first[place]:
+                raise InputError(
+                    f"recording '{recording.name}' changed while it was read",
+                    wanted="files that nobody writes to",
+                )
+            yield recording
+
+
+def _digest(recording: "Recording") -> bytes:
+    from hashlib import blake2b
+
+    found = blake2b(digest_size=16)
+    for series in (recording.time, recording.displacement, recording.force):
+        found.update(b"" if series is None else series.tobytes())
+    return found.digest()
 
 
 def _is_at(recording: "Recording", over: str, level: float | None) -> bool:

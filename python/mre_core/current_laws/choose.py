@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .campaign import Campaign
+from .campaign import Campaign, Changing
 from .joint import Joint, fit
 from .law import FEWEST, LAWS, Law
 
@@ -103,7 +103,9 @@ def choose(
         The law of each parameter; what was tried, in the order of the rounds; a fit to start the last from.
     """
     structure = campaign.structure
-    open_to = [name for name in structure.names if name not in given]
+    # Within a recording only coefficients can follow what changes.
+    steady = structure.shapes if any(isinstance(part, Changing) for part in campaign.parts) else ()
+    open_to = [name for name in structure.names if name not in given and name not in steady]
     kinds = {name: given.get(name, "constant") for name in structure.names}
     start = fit(campaign, laws_of(kinds, campaign.levels))
     best = leave_one_current_out(campaign, kinds, start)

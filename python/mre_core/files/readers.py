@@ -84,7 +84,7 @@ def find_files(paths: Iterable[str | os.PathLike[str]]) -> list[Path]:
     Raises
     ------
     InputError
-        A folder has no such file.
+        A folder has no such file, or a file is given twice.
     """
     found = []
     for path in map(Path, paths):
@@ -100,4 +100,15 @@ def find_files(paths: Iterable[str | os.PathLike[str]]) -> list[Path]:
             wanted = f"files that end in {', '.join(READERS)}"
             raise InputError("is a folder without recordings", file=str(path), wanted=wanted)
         found += files
+    _check_once(found)
     return found
+
+
+def _check_once(files: Iterable[Path]) -> None:
+    """Refuse a file that is named twice: it would count as more than was measured."""
+    seen: dict[Path, Path] = {}
+    for file in files:
+        if other := seen.get(file.resolve()):
+            also = "" if other == file else f", also as {other}"
+            raise InputError(f"the file is given twice{also}", file=str(file), wanted="each file once")
+        seen[file.resolve()] = file
