@@ -4,6 +4,34 @@ from typing import Any, Self, final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+__all__ = [
+    "MreError",
+    "Problem",
+    "Recording",
+    "Swarm",
+    "__version__",
+    "catalogue",
+    "certify",
+    "check",
+    "check_certifiable",
+    "check_effect",
+    "classical",
+    "diagnose_recordings",
+    "effect_parameters",
+    "excitation",
+    "fit_bootstrap",
+    "fit_exact",
+    "fit_hybrid",
+    "fit_profile",
+    "fit_uncertainty",
+    "inertia_weight",
+    "models",
+    "noise_products",
+    "parameters",
+    "simulate",
+    "uniforms",
+]
+
 __version__: str
 
 class MreError(ValueError): ...
@@ -64,6 +92,7 @@ class Problem:
         *,
         weights: str | ArrayLike | None = None,
     ) -> Self: ...
+    def __getnewargs_ex__(self) -> tuple[tuple[Any, ...], dict[str, Any]]: ...
     @staticmethod
     def streamed(
         chunks: Iterable[Recording | tuple[ArrayLike, ArrayLike, ArrayLike]],
@@ -159,7 +188,7 @@ def simulate(
     model: str,
     levels: Sequence[tuple[float | None, Sequence[float]]],
     recording: Recording,
-    effects: Sequence[tuple[str, str, Sequence[float], Sequence[float]]] = [],
+    effects: Sequence[tuple[str, str, Sequence[float], Sequence[float]]] = ...,
     sizes: Mapping[str, Any] | None = None,
 ) -> NDArray[np.float64]: ...
 def catalogue() -> list[dict[str, Any]]: ...
@@ -173,11 +202,11 @@ def diagnose_recordings(
     false_alarm: float,
     seed: int,
     held: Sequence[tuple[float | None, Sequence[float]]] | None = None,
-    held_effects: Sequence[tuple[str, str, Sequence[float], Sequence[float]]] = [],
+    held_effects: Sequence[tuple[str, str, Sequence[float], Sequence[float]]] = ...,
     sizes: Mapping[str, Any] | None = None,
     given: Sequence[ArrayLike] | None = None,
-    base_effects: Sequence[tuple[str, str, Sequence[float]]] = [],
-    without: Sequence[str] = [],
+    base_effects: Sequence[tuple[str, str, Sequence[float]]] = ...,
+    without: Sequence[str] = ...,
     blank: int = 0,
     threads: int | None = None,
     on_stage: Callable[[str], Any] | None = None,
