@@ -137,3 +137,15 @@ sys.exit(main(["demo"]))
 """
     run = run_script(code)
     assert (run.returncode, run.stdout, run.stderr) == (130, "waited\n", "mre-core: interrupted\n")
+
+
+def test_interrupt_of_a_command_that_an_import_runs(tmp_path: Path) -> None:
+    (tmp_path / "runs.py").write_text(
+        "import signal, time\n"
+        "from mre_core.cli.main import cli, main\n"
+        "def late(*given, **more):\n    signal.raise_signal(signal.SIGTERM)\n    time.sleep(20)\n"
+        "cli.main = late\n"
+        "status = main(['demo'])\n"
+    )
+    run = run_script(f"import sys; sys.path.insert(0, {str(tmp_path)!r}); import runs; sys.exit(runs.status)")
+    assert (run.returncode, run.stderr) == (130, "mre-core: interrupted\n")

@@ -1,6 +1,7 @@
 """Ctrl-C and SIGTERM stop a command in the same way, and neither in the midst of what has to be whole."""
 
 import signal
+import sys
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -23,8 +24,10 @@ class Interruptions:
     def __init__(self) -> None:
         self.came = False
         self._before: dict[signal.Signals, Any] = {}
+        self._outside: FrameType | None = None
 
     def __enter__(self) -> Self:
+        self._outside = sys._getframe(1)  # which may itself belong to an import
         if threading.current_thread() is threading.main_thread():
             for number in _SIGNALS:
                 # Ctrl-C may be ignored, or be somebody else's.
@@ -39,19 +42,21 @@ class Interruptions:
             signal.setitimer(signal.ITIMER_REAL, 0)
         for number, handler in self._before.items():
             signal.signal(number, handler)
+        self._outside = None
 
     def _interrupt(self, number: int, frame: FrameType | None) -> None:
         self.came = True
-        if _AGAIN in self._before and _importing(frame):
+        if _AGAIN in self._before and self._importing(frame):
             signal.setitimer(signal.ITIMER_REAL, _SOON)
         else:
             raise KeyboardInterrupt
 
-
-def _importing(frame: FrameType | None) -> bool:
-    while frame is not None and not frame.f_code.co_filename.startswith("<frozen importlib"):
-        frame = frame.f_back
-    return frame is not None
+    def _importing(self, frame: FrameType | None) -> bool:
+        while frame is not None and frame is not self._outside:
+            if frame.f_code.co_filename.startswith("<frozen importlib"):
+                return True
+            frame = frame.f_back
+        return False
 
 
 @contextmanager
