@@ -16,6 +16,8 @@ _FIRST = ("item", "seed", "status", "error", "job", "model", "verdict", "effects
 _CONDITIONS = ("recordings", "samples", "current", "temperature", "amplitude", "velocity")
 _LAST = ("warnings", "digest", "settings", "version")
 _ALWAYS = ("item", "seed", "status", "settings")
+_LATEST = 9e9
+"""Seconds from 1970 that have a date in ns: to the years 1684 and 2255."""
 _WHOLE = ("seed", "recordings", "samples", "evaluations")
 
 
@@ -36,7 +38,8 @@ def _column(name: str, values: list[Any]) -> "pd.Series[Any]":
 
     if name in ("modified_time", "finished_time"):
         # A clock that is set wrong may tell a time that has no date.
-        return pd.Series(pd.to_datetime(values, unit="s", utc=True, errors="coerce"))
+        dated = [value if value is not None and abs(value) < _LATEST else None for value in values]
+        return pd.Series(pd.to_datetime(dated, unit="s", utc=True, errors="coerce"))
     if name in _WHOLE:
         return pd.Series(values, dtype="UInt64")
     if any(isinstance(value, str) for value in values):

@@ -3,7 +3,7 @@
 import csv
 import re
 from collections import defaultdict
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import Final, NamedTuple
 
 from .options import SEPARATORS, ReadOptions
@@ -13,6 +13,8 @@ _EXPONENT: Final = r"(?:[eE][+-]?\d+)?\s*"
 _POINT: Final = re.compile(r"\s*[+-]?(?:\d+\.?\d*|\.\d+|\d{1,3}(?:,\d{3})+\.\d+)" + _EXPONENT, re.ASCII)
 _COMMA: Final = re.compile(r"\s*[+-]?(?:\d+,?\d*|,\d+|\d{1,3}(?:\.\d{3})+,\d+)" + _EXPONENT, re.ASCII)
 _PIECE: Final = 100
+_ROUNDING: Final = 1e-6
+"""More than what sums of some hundred shares differ by."""
 _BLANK: Final = 0.9
 """Blanks cut nearly everything: any other separator goes before them."""
 # A header of words apart by single blanks: a bracket belongs to the word before it.
@@ -102,15 +104,18 @@ def find_dialect(lines: Sequence[str], options: ReadOptions) -> Dialect:
         if options.separator in (None, dialect.separator) and options.decimal in (None, dialect.decimal)
     ]
     sample = [line for line in _sample(lines) if line.strip()]
-    best = max(known, key=lambda dialect: _score(dialect, sample))
-    if _score(best, sample) > 0:
+    best, most = known[0], 0.0
+    for dialect in known:  # of equal ones the first
+        if (score := _score(dialect, sample, most)) > most:
+            best, most = dialect, score
+    if most > 0:
         return best
     head = next((line for line in sample if not line.lstrip().startswith("#")), "")
     order = {",": 3, ";": 2, "\t": 1}
     return max(known, key=lambda d: (len(d.cells(head)) if d.separator else 0, order.get(d.separator, 0)))
 
 
-def _sample(lines: Sequence[str]) -> Iterable[str]:
+def _sample(lines: Sequence[str]) -> list[str]:
     """Lines from the beginning, the middle and the end."""
     n = len(lines)
     places = [
@@ -121,14 +126,23 @@ def _sample(lines: Sequence[str]) -> Iterable[str]:
     return [lines[i] for i in sorted(set().union(*places))]
 
 
-def _score(dialect: Dialect, sample: Iterable[str]) -> float:
-    """Add up the share of numbers in the rows that hold at least two, over the rows of one width."""
+def _score(dialect: Dialect, sample: Sequence[str], most: float) -> float:
+    """Add up the share of numbers in the rows that hold at least two, over the rows of one width.
+
+    Ends early, with less than `most`, where that cannot be reached any more.
+    """
+    weight = 1.0 if dialect.separator else _BLANK
     scores: defaultdict[int, float] = defaultdict(float)
-    for line in sample:
+    best = 0.0
+    for left, line in zip(range(len(sample), 0, -1), sample, strict=True):
+        if weight * (best + left) < most - _ROUNDING:
+            return 0.0
+        if dialect.separator not in line:
+            continue  # one cell
         cells = dialect.cells(line)
         filled = [cell for cell in cells if cell]
         numbers = sum(map(dialect.is_number, filled))
         if numbers >= 2 and 2 * numbers >= len(filled):
             scores[len(cells)] += numbers / len(filled)
-    best = max(scores.values(), default=0.0)
-    return best if dialect.separator else _BLANK * best
+            best = max(best, scores[len(cells)])
+    return weight * best
