@@ -19,6 +19,8 @@ _WORTH = 0.99
 """A law with more values has to bring the error down to this share."""
 _EXACT = 1e-12
 """An error of the fit, as a share of the force, that is rounding."""
+_ENOUGH = 1e-6
+"""Precision of fits that are only compared."""
 Independent = Callable[[Joint], float]
 """Tells how many independent samples the noise around a fit amounts to."""
 
@@ -38,7 +40,9 @@ class Trial:
     """The same of all recordings as fitted."""
 
 
-def leave_one_current_out(campaign: Campaign, kinds: Mapping[str, str], start: Joint | None) -> Trial | None:
+def leave_one_current_out(
+    campaign: Campaign, kinds: Mapping[str, str], start: Joint | None, precision: float = _ENOUGH
+) -> Trial | None:
     """Fit without each level in turn that others enclose, and predict it.
 
     None where there is no such level, or where a law would not be determined without it. Constant shapes are
@@ -51,7 +55,7 @@ def leave_one_current_out(campaign: Campaign, kinds: Mapping[str, str], start: J
     held = {} if start is None else {name: start.parameters[name] for name in shapes}
 
     def fitted(to: Campaign) -> Joint:
-        return fit(to, laws_of(kinds, to.levels), start, held)
+        return fit(to, laws_of(kinds, to.levels), start, held, precision)
 
     predicted = {level: misfit(campaign.only(level), fitted(campaign.without(level))) for level in inner}
     outer = campaign
@@ -139,7 +143,7 @@ def choose(
             best = min(plain_changes, key=lambda trial: trial.score)
             changing |= {name for name in constant if best.laws[name] != "constant"}
         kinds = dict(best.laws)
-        start = fit(campaign, laws_of(kinds, campaign.levels), start)
+        start = fit(campaign, laws_of(kinds, campaign.levels), start, precision=_ENOUGH)
 
 
 def _is_plain(campaign: Campaign, before: Trial, after: Trial, constant: Sequence[str], count: float) -> bool:

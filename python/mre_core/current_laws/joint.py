@@ -15,8 +15,8 @@ from .law import Dependence, Law
 
 Array = NDArray[np.float64]
 _GRID = 25
-_FIRST_STEP = 0.05
-"""Of the last descent, as a share of the box."""
+_STEP = 1e-6
+"""Of the differences in the last descent, as a share of the box."""
 _EVALUATIONS = 150
 """Most evaluations of the last descent, for every variable."""
 
@@ -64,11 +64,13 @@ def fit(
     laws: Mapping[str, Law],
     start: Joint | None = None,
     held: Mapping[str, Dependence] | None = None,
+    precision: float = 1e-10,
 ) -> Joint:
     """Search shapes and saturation currents, with the coefficients solved for each.
 
     A saturating law without saturation current is given one. Shapes are searched near those of `start`,
-    or over the whole box without one; those in `held` are kept.
+    or over the whole box without one; those in `held` are kept. The last descent ends with a step
+    that lowers the squares by less than the share `precision`.
     """
     from scipy.optimize import minimize
 
@@ -81,19 +83,12 @@ def fit(
     def cost(share: Array) -> float:
         return variables.joint(variables.low + share * width).squares
 
-    place = (best - variables.low) / width
-    side = np.where(place > 0.5, -_FIRST_STEP, _FIRST_STEP)  # where there is more room
     found: Any = minimize(
         cost,
-        place,
-        method="Nelder-Mead",
-        bounds=[(0, 1)] * len(place),
-        options={
-            "initial_simplex": np.vstack([place, place + np.diag(side)]),
-            "xatol": 1e-6,
-            "fatol": 1e-10 * cost(place),
-            "maxfev": _EVALUATIONS * len(place),
-        },
+        (best - variables.low) / width,
+        method="L-BFGS-B",
+        bounds=[(0, 1)] * len(best),
+        options={"eps": _STEP, "ftol": precision, "gtol": 0.0, "maxfun": _EVALUATIONS * len(best)},
     )
     last = variables.joint(variables.low + found.x * width)
     return min((last, variables.joint(best)), key=lambda joint: joint.squares)
