@@ -126,7 +126,7 @@ def test_the_command_shows_and_keeps_them(cli: Cli, tmp_path: Path) -> None:
     status, shown, err = cli("laws", *files, "--model", "sinh", *laws, *shared, "--out", out)
     assert (status, err.count("\n"), err.count("no unit")) == (0, 1, 1)  # said once, though it is read twice
     table = pd.read_csv(out / "laws.csv")
-    assert list(table) == ["parameter", "law", "at", "value", "unit", "low", "high"]
+    assert list(table) == ["parameter", "law", "at", "value", "unit", "low", "high", "note"]
     assert ((table["low"] < table["value"]) & (table["value"] < table["high"])).all()
     kept = json.loads((out / "laws.json").read_text(encoding="utf-8"))["values"]
     assert [row["high"] for row in kept] == pytest.approx(table["high"].tolist(), rel=1e-14)

@@ -138,8 +138,8 @@ def test_laws_are_chosen_and_recovered() -> None:
     # What was left out is predicted down to the noise.
     assert found.left_out is not None
     assert set(found.left_out.by_level) == {0.5, 1.0, 1.5, 2.0}
-    for current, error in found.left_out.by_level.items():
-        assert error == pytest.approx(found.by_level[current], rel=0.05)
+    for level, error in found.left_out.by_level.items():
+        assert error == pytest.approx(found.by_level[level], rel=0.05)
     assert found.left_out.error == pytest.approx(min(trial.error for trial in found.trials), rel=0.02)
     assert found.rms == pytest.approx(0.2, rel=0.05)
 
@@ -429,7 +429,7 @@ def test_command(cli: Cli, tmp_path: Path) -> None:
     assert json.loads(shown) == content
     for wrong, problem in {
         "--law c0": "--law c0, wanted --law NAME=LAW",
-        "--predict 7": "no recording at 7, wanted the current of some",
+        "--predict 7": "no recording at 7 A, wanted one of 0, 0.5, 1\n",
     }.items():
         status, _, err = cli(*arguments, *wrong.split(), "--out", tmp_path / "new")
         assert (status, err.count("\n")) == (2, 1)
@@ -479,3 +479,104 @@ def test_a_recording_that_changes_between_readings() -> None:
     assert len(list(again)) == 2
     with pytest.raises(InputError, match="recording '3mm0A' changed while it was read"):
         list(again)
+
+
+def under_sweeps(periods: tuple[float, ...], top: float = 3.0) -> list[Recording]:
+    """Recordings of the campaign's device under currents that go up and down between 0 and `top`."""
+    found = []
+    for n, period in enumerate(periods):
+        moved = motion(8.0 - n, rate=128)
+        current = top * (0.5 - 0.5 * np.cos(2 * np.pi * moved.time / period))
+        x, v = moved.displacement, moved.velocity
+        c0, k0, alpha = (np.array([TRUTH[name](i) for i in current]) for name in ("c0", "k0", "alpha"))
+        force = c0 * v + k0 * x + alpha * np.sinh(0.3 * x) + 0.5
+        force += np.random.default_rng(n).normal(0, 0.2, len(x))
+        found.append(Recording(moved.time, x, force, velocity=v, current=current, name=f"sweep {n}"))
+    return found
+
+
+def test_laws_are_chosen_from_changing_currents_alone() -> None:
+    found = mre_core.fit_laws(under_sweeps((2.0, 1.3, 0.9)), "sinh")
+    kinds = {name: p.law.kind for name, p in found.model.laws.items()}
+    assert kinds == {
+        "c0": "linear",
+        "k0": "linear",
+        "alpha": "saturating",
+        "beta": "constant",
+        "F0": "constant",
+    }
+    assert found.left_out is not None
+    assert set(found.left_out.by_level) == set(found.by_level) == {"sweep 0", "sweep 1", "sweep 2"}
+    assert found.left_out.error == pytest.approx(found.relative_rms, rel=0.1)
+    assert found.words == ()
+    content = found.to_dict()["left_out"]["relative_rms_by_level"]
+    assert [row["recording"] for row in content] == ["sweep 0", "sweep 1", "sweep 2"]
+
+
+def test_one_changing_current_chooses_nothing_and_says_so() -> None:
+    (sweep,) = under_sweeps((1.3,))
+    found = mre_core.fit_laws(sweep, "sinh")
+    assert {name: p.law.kind for name, p in found.model.laws.items()}["alpha"] == "linear"
+    assert (found.left_out, found.trials) == (None, ())
+    assert "none could be left out" in found.words[0]
+    bent = mre_core.fit_laws(sweep, "sinh", {"alpha": "saturating"}, ["beta"])  # it visits enough currents
+    assert bent.model.laws["alpha"].law.saturation == pytest.approx(0.8, rel=0.1)
+    current = np.where(np.arange(len(sweep)) % 128 < 64, 0.0, 3.0)
+    switched = Recording(
+        sweep.time, sweep.displacement, sweep.force, velocity=sweep.velocity, current=current
+    )
+    with pytest.raises(
+        InputError, match="saturating for alpha with 2 levels of the current, wanted at least 3"
+    ):
+        mre_core.fit_laws(switched, "sinh", {"alpha": "saturating"}, ["beta"])
+
+
+def test_a_copy_under_another_name_is_refused() -> None:
+    first = campaign((0.0, 1.0))
+    copy = Recording(first[0].time, first[0].displacement, first[0].force, current=1.0, name="copy")
+    for work in (mre_core.fit_laws, mre_core.identify, mre_core.diagnose):
+        with pytest.raises(InputError, match="a recording is given twice, as '3mm0A' and as 'copy'"):
+            work([*first, copy], "sinh")
+
+
+def test_a_bound_that_holds_a_value_is_named() -> None:
+    found = mre_core.fit_laws(
+        campaign((0.0, 1.0, 2.0)), "sinh", LAWS | {"alpha": "linear"}, bounds={"k0": (0, 8)}
+    )
+    notes = {(row["parameter"], row["at"]): row["note"] for row in found.rows()}
+    assert notes["k0", 2.0] == "on its upper bound: widen it"
+    assert notes["k0", 0.0] == notes["c0", 2.0] == ""
+    assert found.words == ("k0 at 2 A is on its upper bound: widen it",)
+    assert found.to_dict()["words"] == list(found.words)
+    limit = mre_core.fit_laws(campaign((0.0, 1.0, 2.0)), "sinh", {"k0": "constant"}, bounds={"k0": (0, 0)})
+    assert {row["note"] for row in limit.rows() if row["parameter"] == "k0"} == {""}  # somebody wants it
+
+
+def test_the_figure_and_the_table_have_the_same_intervals() -> None:
+    soft = {"c0": 1.0, "k0": 0.001, "F0": 0.0}
+    weak = [
+        record(
+            made_of("kelvin_voigt", soft, current), motion(8.0, rate=64, current=current), noise=0.5, seed=n
+        )
+        for n, current in enumerate((0.0, 1.0, 2.0))
+    ]
+    found = mre_core.fit_laws(weak, "kelvin_voigt", {"c0": "linear", "k0": "linear"}, ["F0"])
+    table = {(r["parameter"], r["at"]): (r["low"], r["high"]) for r in found.rows() if r["low"] is not None}
+    assert any(low == 0 for (name, _), (low, _) in table.items() if name == "k0")  # cut off at the limit
+    for level in found.model.levels:
+        for name, interval in level.intervals.items():
+            if (name, level.current) in table:
+                assert table[name, level.current] == pytest.approx(interval, rel=1e-9, abs=1e-12)
+
+
+def test_what_cannot_be_predicted_is_told_with_what_can(cli: Cli, tmp_path: Path) -> None:
+    for recording in campaign((0.0, 1.0)):
+        write_csv(tmp_path / f"{recording.name}.csv", recording)
+    (tmp_path / "notes.txt").write_text("nothing but words")
+    command = ("laws", str(tmp_path), "--model", "sinh", "--name-pattern", "{stroke}mm{current}A")
+    status, _, said = cli(*command, "--predict", "0.5")
+    assert status == 2
+    assert said.splitlines()[-1] == "mre-core: no recording at 0.5 A, wanted one of 0, 1"
+    status, _, said = cli(*command)
+    assert status == 0
+    assert said.count("notes.txt") == 1  # passed over once, although files are read more than once

@@ -2,7 +2,6 @@
 
 import ast
 import json
-import time
 from pathlib import Path
 
 import mre_core
@@ -26,18 +25,19 @@ def test_lines_of_long_work(monkeypatch: pytest.MonkeyPatch, capsys: pytest.Capt
     assert capsys.readouterr().err == ""
 
 
-def test_lines_of_work_of_unknown_length(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.setattr(progress, "EVERY", 0.01)
-    with progress.spinner("diagnosing", quiet=False):
-        while not (err := capsys.readouterr().err):
-            time.sleep(0.01)
-    assert err.startswith("mre-core: diagnosing for ")
-    capsys.readouterr()  # more lines may have come until it ended
-    with progress.spinner("diagnosing", quiet=True):
-        time.sleep(0.05)
-    assert "diagnosing" not in capsys.readouterr().err
+def test_lines_of_work_in_steps(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.setattr(progress, "EVERY", 0.0)
+    with progress.steps("fitting", quiet=False) as on_step:
+        on_step("reading", 0, 40)
+        on_step("reading", 30, 40)
+        on_step("choosing laws, round 1", 0, 7)
+    first, second, third = capsys.readouterr().err.splitlines()
+    assert first == "mre-core: reading: 0 of 40"
+    assert second.startswith("mre-core: reading: 30 of 40, about ")
+    assert third == "mre-core: choosing laws, round 1: 0 of 7"
+    with progress.steps("fitting", quiet=True) as on_step:
+        on_step("reading", 1, 2)
+    assert capsys.readouterr().err == ""
 
 
 def test_json_of_an_identification(cli: Cli, tmp_path: Path, sinh_csv: Path) -> None:

@@ -1,6 +1,7 @@
 """Recordings that share their parameters."""
 
 from collections.abc import Iterable, Iterator, Sequence
+from hashlib import blake2b
 
 import numpy as np
 
@@ -27,10 +28,35 @@ def each_of(recordings: Recording | Iterable[Recording]) -> Iterator[Recording]:
         yield recording
 
 
+def content_of(recording: Recording) -> bytes:
+    """Digest of what was measured, whatever the recording is called."""
+    found = blake2b(digest_size=16)
+    for series in (recording.time, recording.displacement, recording.force):
+        found.update(b"" if series is None else series.tobytes())
+    return found.digest()
+
+
+def each_once(recordings: Recording | Iterable[Recording]) -> Iterator[Recording]:
+    """Go through recordings as they come, and refuse one that is there twice, under whatever name.
+
+    It would count as more than was measured. A force that is zero throughout is the same in any recording.
+    """
+    seen: dict[bytes, str] = {}
+    for recording in each_of(recordings):
+        content = content_of(recording)
+        if (other := seen.get(content)) is not None:
+            names = " and as ".join(f"'{name}'" for name in dict.fromkeys((other, recording.name)) if name)
+            where = f", as {names}" if names else ""
+            raise InputError(f"a recording is given twice{where}", wanted="each recording once")
+        if recording.force is not None and recording.force.any():
+            seen[content] = recording.name
+        yield recording
+
+
 def check_once(recordings: Sequence[Recording]) -> None:
-    """Refuse a recording that is there twice: it would count as more than was measured."""
-    if len({id(recording) for recording in recordings}) < len(recordings):
-        raise InputError("a recording is given twice", wanted="each recording once")
+    """Refuse a recording that is there twice, under whatever name."""
+    for _ in each_once(recordings):
+        pass
 
 
 def group_by_current(recordings: Sequence[Recording]) -> list[tuple[float | None, list[Recording]]]:

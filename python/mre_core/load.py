@@ -2,7 +2,7 @@
 
 import os
 import warnings
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -111,20 +111,51 @@ def load_all(
     SkippedWarning
         A file of a folder, or a table of a file, holds no recording.
     """
+    files = load_each(
+        paths,
+        map=map,
+        name_pattern=name_pattern,
+        read=read,
+        require_force=require_force,
+        on_file=None,
+        **conditions,
+    )
+    return [recording for found in files for recording in found]
+
+
+def load_each(
+    paths: str | os.PathLike[str] | Sequence[str | os.PathLike[str]],
+    *,
+    map: Mapping[str, str] | None = None,
+    name_pattern: str | None = None,
+    read: Mapping[str, object] | None = None,
+    require_force: bool = True,
+    on_file: Callable[[int, int], object] | None = None,
+    **conditions: float | str | None,
+) -> Iterator[list[Recording]]:
+    """Load as `load_all` does, one file after the other: the recordings of each.
+
+    `on_file` is called with (files read, files) as it goes.
+    """
     given = [paths] if isinstance(paths, str | os.PathLike) else list(paths)
     options = ReadOptions.of(read)
     named = {Path(path) for path in given}
-    found: list[Recording] = []
-    for file in find_files(given):
+    files = find_files(given)
+    none = True
+    for place, file in enumerate(files):
+        if on_file is not None:
+            on_file(place, len(files))
         try:
-            found += _load_file(file, map, name_pattern, options, conditions, require_force=require_force)
+            found = _load_file(file, map, name_pattern, options, conditions, require_force=require_force)
         except NoTableError as error:
             if file in named:
                 raise
-            warnings.warn(f"passed over: {error}", SkippedWarning, stacklevel=2)
-    if given and not found:
+            warnings.warn(f"passed over: {error}", SkippedWarning, stacklevel=3)
+            continue
+        none = none and not found
+        yield found
+    if given and none:
         raise InputError("no file holds a recording", file=str(given[0]), wanted="at least one recording")
-    return found
 
 
 def _load_file(

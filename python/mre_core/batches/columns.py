@@ -38,7 +38,7 @@ def _column(name: str, values: list[Any]) -> "pd.Series[Any]":
 
     if name in ("modified_time", "finished_time"):
         # A clock that is set wrong may tell a time that has no date.
-        dated = [value if value is not None and abs(value) < _LATEST else None for value in values]
+        dated: list[Any] = [value if value is not None and abs(value) < _LATEST else None for value in values]
         return pd.Series(pd.to_datetime(dated, unit="s", utc=True, errors="coerce"))
     if name in _WHOLE:
         return pd.Series(values, dtype="UInt64")

@@ -2,7 +2,7 @@
 
 import math
 import warnings
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from typing import Any
 
 from .._core import Recording
@@ -11,7 +11,7 @@ from ..errors import InputError
 from ..files import ReadOptions
 from ..guesses import guess_pattern
 from ..load import load
-from ..load import load_all as load_campaign
+from ..load import load_each as load_files
 from ..units import ROLES
 
 _PAIRS = ("--map", "--set", "--read")
@@ -82,17 +82,31 @@ def load_all(
     reading: Sequence[str] = (),
 ) -> list[Recording]:
     """Load the recordings of a command; currents in file names that nobody asked for are pointed out."""
+    files = load_each(paths, mapping, conditions, name_pattern, reading)
+    found = [recording for file in files for recording in file]
+    if name_pattern is None and all(recording.current is None for recording in found):
+        _point_out_currents([recording.name.partition("#")[0] for recording in found])
+    return found
+
+
+def load_each(
+    paths: Sequence[str],
+    mapping: Sequence[str],
+    conditions: Sequence[str],
+    name_pattern: str | None,
+    reading: Sequence[str],
+    on_file: Callable[[int, int], object] | None = None,
+) -> Iterator[list[Recording]]:
+    """Load the recordings of a command, one file after the other."""
     fixed: dict[str, Any] = pairs("--set", conditions)  # roles: checked there
-    found = load_campaign(
+    return load_files(
         paths,
         map=pairs("--map", mapping),
         name_pattern=name_pattern,
         read=pairs("--read", reading, ReadOptions._fields),
+        on_file=on_file,
         **fixed,
     )
-    if name_pattern is None and all(recording.current is None for recording in found):
-        _point_out_currents([recording.name.partition("#")[0] for recording in found])
-    return found
 
 
 def _point_out_currents(names: Sequence[str]) -> None:

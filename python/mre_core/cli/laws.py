@@ -1,15 +1,14 @@
 """``mre-core laws``."""
 
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..errors import InputError, SkippedWarning
-from ..files.table import NoTableError
-from .arguments import load_all, read_bounds, read_interval, read_parts
+from ..errors import InputError, listed
+from .arguments import load_each, read_bounds, read_interval, read_parts
 from .options import common_options, fit_options, report_options, trim_options
 
 if TYPE_CHECKING:
@@ -80,43 +79,42 @@ def laws(
 
     from ..current_laws.fit import fit_laws
     from ..current_laws.plots import plot_laws
-    from ..files.readers import find_files
     from ..measure import measure_fit
     from ..output import Stage, staged, to_json
-    from .progress import spinner
+    from .progress import steps
     from .settings import write_settings
 
-    files = find_files(recordings)
     interval = None if cut is None else read_interval(cut)
     parts = read_parts(exclude)
 
     def read(*, again: bool) -> "Iterator[Recording]":
-        for path in files:  # one at a time: a campaign need not fit into memory
-            with warnings.catch_warnings():
-                if again:  # what there is to say has been said
-                    warnings.simplefilter("ignore")
-                try:
-                    loaded = load_all([str(path)], mapping, conditions, name_pattern, reading)
-                except NoTableError as error:
-                    if str(path) in recordings:
-                        raise
-                    warnings.warn(f"passed over: {error}", SkippedWarning, stacklevel=2)
-                    continue
-            for found in loaded:
+        """Read one file at a time: a campaign need not fit into memory."""
+        what = "reading again" if again else "reading"
+        loaded = load_each(
+            recordings,
+            mapping,
+            conditions,
+            name_pattern,
+            reading,
+            on_file=lambda done, count: on_step(what, done, count),
+        )
+        for file in _quietly(loaded) if again else loaded:  # what there is to say has been said
+            for found in file:
                 found = found if interval is None else found.cut(*interval)
                 yield found.exclude(*parts) if parts else found
 
     place = staged(out) if out is not None else nullcontext()
     with place as stage:
-        with spinner("fitting", quiet=quiet):
+        with steps("fitting", quiet=quiet) as on_step:
             settings: dict[str, Any] = {"over": over, "bounds": read_bounds(bounds)}
             settings |= {key: value for key, value in options.items() if value is not None}
-            kept = _Again(lambda again: (r for r in read(again=again) if not _is_at(r, over, predict)))
+            settings["on_trial"] = lambda number, done, count: on_step(
+                f"choosing laws, round {number}", done, count
+            )
+            kept = _Again(lambda again: _others(read(again=again), over, predict))
             found = fit_laws(kept, model, _laws(laws), shared, **settings)
             left_out = [] if predict is None else (r for r in read(again=True) if _is_at(r, over, predict))
             predicted = [measure_fit(found.model, recording) for recording in left_out]
-        if predict is not None and not predicted:
-            raise InputError(f"no recording at {predict:g}", wanted=f"the {over} of some recording")
         content = found.to_dict() | {"predicted": [asdict(fit) for fit in predicted]}
         if isinstance(stage, Stage) and out is not None:
             write_settings(stage, out)
@@ -140,9 +138,11 @@ class _Again:
         self._again = False
 
     def __iter__(self) -> "Iterator[Recording]":
+        from ..grouping import content_of
+
         again, self._again = self._again, True
         for place, recording in enumerate(self._read(again)):
-            content = _digest(recording)
+            content = content_of(recording)
             if not again:
                 self._first.append(content)
             elif place >= len(self._first) or content != self._first[place]:
@@ -153,13 +153,34 @@ class _Again:
             yield recording
 
 
-def _digest(recording: "Recording") -> bytes:
-    from hashlib import blake2b
+def _quietly(files: "Iterable[list[Recording]]") -> "Iterator[list[Recording]]":
+    """Go through files without the warnings that reading them gives."""
+    rest = iter(files)
+    while True:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            try:
+                found = next(rest)
+            except StopIteration:
+                return
+        yield found
 
-    found = blake2b(digest_size=16)
-    for series in (recording.time, recording.displacement, recording.force):
-        found.update(b"" if series is None else series.tobytes())
-    return found.digest()
+
+def _others(recordings: "Iterable[Recording]", over: str, level: float | None) -> "Iterator[Recording]":
+    """Leave out what is to be predicted; there has to be some."""
+    from ..current_laws.variable import UNITS, series_of
+
+    any_left_out, levels = False, set[float]()
+    for recording in recordings:
+        if _is_at(recording, over, level):
+            any_left_out = True
+            continue
+        if level is not None and len(series := series_of(recording, over)) == 1:
+            levels.add(round(float(series.item()), 3))
+        yield recording
+    if level is not None and not any_left_out:
+        there = listed([f"{each:g}" for each in sorted(levels)])
+        raise InputError(f"no recording at {level:g} {UNITS[over]}", wanted=f"one of {there}")
 
 
 def _is_at(recording: "Recording", over: str, level: float | None) -> bool:
@@ -187,6 +208,7 @@ def _print(found: "LawFit", predicted: "list[Fit]") -> None:
     from rich.table import Table
 
     from ..current_laws.variable import UNITS
+    from .escape import escape
     from .show import console
 
     over, unit = found.model.over, UNITS[found.model.over]
@@ -196,7 +218,7 @@ def _print(found: "LawFit", predicted: "list[Fit]") -> None:
         table.add_column(column, justify="right" if column == "value" else "left")
     for row in found.rows():
         at = "all" if row["at"] is None else f"{row['at']:g}"
-        interval = "" if row["low"] is None else f"{row['low']:.5g} to {row['high']:.5g}"
+        interval = row["note"] if row["low"] is None else f"{row['low']:.5g} to {row['high']:.5g}"
         table.add_row(row["parameter"], row["law"], at, f"{row['value']:.5g}", row["unit"], interval)
     out.print(table)
     table = Table(title="rms error / % of the force's rms", title_justify="left")
@@ -205,9 +227,12 @@ def _print(found: "LawFit", predicted: "list[Fit]") -> None:
     left_out = found.left_out.by_level if found.left_out is not None else {}
     for level, error in found.by_level.items():
         other = f"{100 * left_out[level]:.3g}" if level in left_out else ""
-        table.add_row(f"{level:g}", f"{100 * error:.3g}", other)
+        shown = escape(level) if isinstance(level, str) else f"{level:g}"
+        table.add_row(shown, f"{100 * error:.3g}", other)
     out.print(table)
     out.print(f"rms error {found.rms:.4g} N, {100 * found.relative_rms:.3g} % of the force's rms")
+    for sentence in found.words:
+        out.print(f"{sentence}.")
     if not predicted:
         return
     table = Table(title="predicted, not fitted", title_justify="left")

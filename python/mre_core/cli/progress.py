@@ -1,7 +1,6 @@
 """What goes on during long work, on standard error: a bar on a terminal, elsewhere a line now and then."""
 
 import sys
-import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -13,6 +12,7 @@ if TYPE_CHECKING:
 OnLevel = Callable[[int, int, float | None], None]
 OnProgress = Callable[[int, int, float], None]
 OnItems = Callable[[int, int, int], None]
+OnStep = Callable[[str, int, int], None]
 
 EVERY = 30.0
 """Seconds between two lines; work that is shorter says nothing."""
@@ -88,30 +88,44 @@ def counter(what: str, *, quiet: bool) -> Iterator[OnItems]:
 
 
 @contextmanager
-def spinner(what: str, *, quiet: bool) -> Iterator[None]:
-    """Show that work goes on whose length is not known, and for how long.
+def steps(what: str, *, quiet: bool) -> Iterator[OnStep]:
+    """Show work of several steps: which one it is, how far, and how long it will take.
 
     Parameters
     ----------
     what : str
-        What is being done.
+        The work, before its first step.
     quiet : bool
         Show nothing.
+
+    Yields
+    ------
+    on_step : callable
+        To be called with (name of the step, parts done, parts).
     """
     from rich.console import Console
-    from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+    from rich.progress import Progress
 
     err = Console(stderr=True)
-    if quiet:
-        yield
-    elif err.is_terminal:
-        columns = (SpinnerColumn(), TextColumn("{task.description}"), TimeElapsedColumn())
-        with Progress(*columns, console=err, transient=True) as turning:
-            turning.add_task(what, total=None)
-            yield
-    else:
-        with _heartbeat(what):
-            yield
+    bar = Progress(*_columns(), console=err, transient=True, disable=quiet or not err.is_terminal)
+    task = bar.add_task(what, total=None, note="")
+    began = said = time.monotonic()
+    title = ""
+
+    def on_step(step: str, done: int, count: int) -> None:
+        nonlocal began, said, title
+        now = time.monotonic()
+        if step != title:
+            began, title = now, step
+            bar.reset(task, description=step, total=count)
+        bar.update(task, completed=done, note=f"{done} of {count}")
+        if not quiet and not err.is_terminal and now - said >= EVERY:
+            said = now
+            left = f", about {(now - began) / done * (count - done):.0f} s left" if done else ""
+            say(f"{step}: {done} of {count}{left}")
+
+    with bar:
+        yield on_step
 
 
 @contextmanager
@@ -187,27 +201,6 @@ def _lines(iterations: int) -> tuple[OnLevel, OnProgress]:
         say(f"{title}: iteration {iteration} of {iterations}, {note}, about {max(left, 0):.0f} s left")
 
     return on_level, on_progress
-
-
-@contextmanager
-def _heartbeat(what: str) -> Iterator[None]:
-    """Lines at longer and longer intervals, from a thread of its own."""
-    done = threading.Event()
-
-    def beat() -> None:
-        wait, passed = EVERY, 0.0
-        while not done.wait(wait):
-            passed += wait
-            say(f"{what} for {passed:.0f} s")
-            wait = max(passed, EVERY)
-
-    thread = threading.Thread(target=beat, daemon=True)
-    thread.start()
-    try:
-        yield
-    finally:
-        done.set()
-        thread.join()
 
 
 def _title(number: int, count: int, current: float | None) -> str:

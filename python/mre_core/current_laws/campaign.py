@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from .._core import Recording
 from ..errors import InputError
-from ..grouping import each_of, same_level
+from ..grouping import each_once, same_level
 from .factors import DirectFactor, Samples, SinhFactor, triangle
 from .law import Dependence, Law
 from .shapes import ShapeBox, shape_boxes
@@ -21,6 +21,9 @@ from .structure import Structure
 from .variable import series_of
 
 Array = NDArray[np.float64]
+_FIFTHS = 5
+_STAY = 0.01
+"""Share of the samples that more than passes through."""
 
 
 class Part(Protocol):
@@ -31,12 +34,17 @@ class Part(Protocol):
         """Lowest and highest current in A."""
         ...
 
+    @property
+    def label(self) -> float | str:
+        """The level, or the name of a recording."""
+        ...
+
     def rows(self, laws: Sequence[Law], shapes: Sequence[Dependence]) -> tuple[Array, Array]:
         """Columns of all values of the coefficients' laws, and the force: (k, p) and (k,)."""
         ...
 
 
-@dataclass
+@dataclass(eq=False)
 class Steady:
     """All recordings at one level."""
 
@@ -47,7 +55,12 @@ class Steady:
     @property
     def currents(self) -> tuple[float, ...]:
         """The level."""
-        return (float(np.mean(self.members)),)
+        return (self.label,)
+
+    @property
+    def label(self) -> float:
+        """The level."""
+        return float(np.mean(self.members))
 
     def rows(self, laws: Sequence[Law], shapes: Sequence[Dependence]) -> tuple[Array, Array]:
         """Columns at the level, each times the weights of its law."""
@@ -62,7 +75,7 @@ def _weights(law: Law, current: float) -> Array:
     return law.weights(current)
 
 
-@dataclass
+@dataclass(eq=False)
 class Changing:
     """A recording whose current changes; kept in memory."""
 
@@ -75,6 +88,17 @@ class Changing:
     def currents(self) -> tuple[float, ...]:
         """Lowest and highest."""
         return (float(self.series.min()), float(self.series.max()))
+
+    @property
+    def label(self) -> str:
+        """Name of the recording."""
+        return str(self.samples.recording.name)
+
+    @property
+    def visited(self) -> int:
+        """In how many fifths of its span the current stays: five of a sweep, two of a switch."""
+        counts, _ = np.histogram(self.series, bins=_FIFTHS)
+        return int(np.sum(counts >= _STAY * len(self.series)))
 
     def rows(self, laws: Sequence[Law], shapes: Sequence[Dependence]) -> tuple[Array, Array]:
         """Columns sample by sample, turned to as many rows as columns."""
@@ -115,21 +139,39 @@ class Campaign:
         return tuple(sorted({*steady, min(ends), max(ends)}))
 
     @property
-    def inner(self) -> tuple[float, ...]:
-        """Levels that others enclose and that recordings are at: those that can be left out."""
-        steady = [p.currents[0] for p in self.parts if len(p.currents) == 1]
-        return tuple(level for level in self.levels[1:-1] if level in steady)
+    def variety(self) -> int:
+        """How many currents the values of a law can be told apart by."""
+        return max([len(self.levels), *(p.visited for p in self.parts if isinstance(p, Changing))])
 
-    def without(self, level: float) -> "Campaign":
-        """Leave out the recordings at one level."""
-        return replace(self, parts=tuple(p for p in self.parts if p.currents != (level,)))
+    @property
+    def removable(self) -> tuple[Part, ...]:
+        """What can be left out and predicted: the levels that others enclose.
 
-    def only(self, level: float) -> "Campaign":
-        """Keep the recordings at one level alone."""
-        return replace(self, parts=tuple(p for p in self.parts if p.currents == (level,)))
+        Where there is none, the recordings whose current changes in a range that the others enclose.
+        """
+        steady = [p for p in self.parts if isinstance(p, Steady)]
+        levels = self.levels
+        if inner := tuple(p for p in steady if levels[0] < p.label < levels[-1]):
+            return inner
+        return tuple(p for p in self.parts if isinstance(p, Changing) and self._encloses(p))
+
+    def _encloses(self, part: Part) -> bool:
+        rest = self.without(part)
+        if not rest.parts:
+            return False
+        (low, high), (first, last) = part.currents, (rest.levels[0], rest.levels[-1])
+        return (first <= low or same_level(low, first)) and (last >= high or same_level(high, last))
+
+    def without(self, part: Part) -> "Campaign":
+        """Leave out a part."""
+        return replace(self, parts=tuple(p for p in self.parts if p is not part))
+
+    def only(self, part: Part) -> "Campaign":
+        """Keep one part alone."""
+        return replace(self, parts=(part,))
 
     def rows(self, laws: Sequence[Law], shapes: Sequence[Dependence]) -> tuple[Array, Array]:
-        """Columns and force of all parts, one below the other."""
+        """Columns and force of all parts, at least one, one below the other."""
         parts = [part.rows(laws, shapes) for part in self.parts]
         return np.vstack([rows for rows, _ in parts]), np.concatenate([right for _, right in parts])
 
@@ -157,7 +199,7 @@ def read_campaign(
     farthest = fastest = strongest = weights = 0.0
     samples = 0
     currents: set[float | None] = set()
-    for recording in each_of(recordings):
+    for recording in each_once(recordings):
         force = recording.force
         if force is None:
             raise InputError(f"recording '{recording.name}' has no force", wanted="a force to fit")

@@ -23,6 +23,8 @@ _ENOUGH = 1e-6
 """Precision of fits that are only compared."""
 Independent = Callable[[Joint], float]
 """Tells how many independent samples the noise around a fit amounts to."""
+OnTrial = Callable[[int, int, int], object]
+"""Called with (round from 1, trials done in it, trials in it) before each trial."""
 
 
 @dataclass(frozen=True)
@@ -32,8 +34,8 @@ class Trial:
     laws: Mapping[str, str]
     error: float
     """Rms error at the levels left out, as a share of the force's rms there."""
-    by_level: Mapping[float, float]
-    """The same by the current that was left out, A."""
+    by_level: Mapping[float | str, float]
+    """The same by what was left out: a current in A, or a recording whose current changes."""
     score: float
     """The same of all recordings: those at the levels left out as predicted, the others as fitted."""
     fitted: float
@@ -43,13 +45,14 @@ class Trial:
 def leave_one_current_out(
     campaign: Campaign, kinds: Mapping[str, str], start: Joint | None, precision: float = _ENOUGH
 ) -> Trial | None:
-    """Fit without each level in turn that others enclose, and predict it.
+    """Fit without each level in turn that others enclose, and predict it; see `Campaign.removable`.
 
     None where there is no such level, or where a law would not be determined without it. Constant shapes are
     kept as in `start`, if that is given.
     """
-    inner = campaign.inner
-    if not inner or any(len(campaign.levels) - 1 < FEWEST[kind] for kind in kinds.values()):
+    parts = campaign.removable
+    fewest = max(FEWEST[kind] for kind in kinds.values())
+    if not parts or any(campaign.without(part).variety < fewest for part in parts):
         return None
     shapes = [] if start is None else [n for n in campaign.structure.shapes if kinds[n] == "constant"]
     held = {} if start is None else {name: start.parameters[name] for name in shapes}
@@ -57,14 +60,12 @@ def leave_one_current_out(
     def fitted(to: Campaign) -> Joint:
         return fit(to, laws_of(kinds, to.levels), start, held, precision)
 
-    predicted = {level: misfit(campaign.only(level), fitted(campaign.without(level))) for level in inner}
-    outer = campaign
-    for level in inner:
-        outer = outer.without(level)
-    left_out = np.sum(list(predicted.values()), axis=0)
+    predicted = [misfit(campaign.only(part), fitted(campaign.without(part))) for part in parts]
+    left_out = np.sum(predicted, axis=0)
     joint = fitted(campaign)
-    score = share(left_out + misfit(outer, joint))
-    by_level = {level: share(sums) for level, sums in predicted.items()}
+    kept = [misfit(campaign.only(part), joint) for part in campaign.parts if part not in parts]
+    score = share(left_out + np.sum([(0.0, 0.0), *kept], axis=0))
+    by_level = {part.label: share(sums) for part, sums in zip(parts, predicted, strict=True)}
     return Trial(dict(kinds), share(left_out), by_level, score, share(misfit(campaign, joint)))
 
 
@@ -90,7 +91,10 @@ def laws_of(kinds: Mapping[str, str], levels: Sequence[float]) -> dict[str, Law]
 
 
 def choose(
-    campaign: Campaign, given: Mapping[str, str], independent: Independent | None = None
+    campaign: Campaign,
+    given: Mapping[str, str],
+    independent: Independent | None = None,
+    on_trial: OnTrial | None = None,
 ) -> tuple[dict[str, str], list[Trial], Joint]:
     """Choose the laws that are not given, one parameter after the other, while that is worth it.
 
@@ -119,25 +123,30 @@ def choose(
         return kinds, [], start
     trials = [best]
     changing: set[str] = set()  # no constants again, or the search could go round in circles
+    number = 0
     while True:
+        number += 1
+        changes = [
+            (name, kind)
+            for name in open_to
+            for kind in (("constant", "linear") if name in structure.shapes else LAWS)
+            if kind != kinds[name] and not (kind == "constant" and name in changing)
+        ]
         tried = []
-        for name in open_to:
-            for kind in LAWS:
-                if kind == kinds[name] or (name in structure.shapes and kind not in ("constant", "linear")):
-                    continue
-                if kind == "constant" and name in changing:
-                    continue
-                trial = leave_one_current_out(campaign, kinds | {name: kind}, start)
-                if trial is not None:
-                    tried.append(trial)
+        for place, (name, kind) in enumerate(changes):
+            if on_trial is not None:
+                on_trial(number, place, len(changes))
+            trial = leave_one_current_out(campaign, kinds | {name: kind}, start)
+            if trial is not None:
+                tried.append(trial)
         trials += tried
         least = min((trial.score for trial in tried), default=best.score)
         if least < _WORTH * best.score:
             best = min((t for t in tried if _WORTH * t.score <= least), key=_simplicity)
         else:
-            count = 0.0 if independent is None else independent(start)
+            samples = 0.0 if independent is None else independent(start)
             constant = [name for name in open_to if kinds[name] == "constant"]
-            plain_changes = [t for t in tried if _is_plain(campaign, best, t, constant, count)]
+            plain_changes = [t for t in tried if _is_plain(campaign, best, t, constant, samples)]
             if not plain_changes:
                 return kinds, trials, start
             best = min(plain_changes, key=lambda trial: trial.score)
@@ -146,14 +155,16 @@ def choose(
         start = fit(campaign, laws_of(kinds, campaign.levels), start, precision=_ENOUGH)
 
 
-def _is_plain(campaign: Campaign, before: Trial, after: Trial, constant: Sequence[str], count: float) -> bool:
+def _is_plain(
+    campaign: Campaign, before: Trial, after: Trial, constant: Sequence[str], samples: float
+) -> bool:
     """Tell whether a law in place of a constant is worth its values, by Schwarz's criterion (BIC)."""
-    if count <= 1 or all(after.laws[name] == "constant" for name in constant):
+    if samples <= 1 or all(after.laws[name] == "constant" for name in constant):
         return False
     laws = [laws_of(trial.laws, campaign.levels).values() for trial in (before, after)]
     few, many = (sum(len(law.nodes) for law in each) for each in laws)
-    gain = 2 * count * np.log(max(before.fitted, _EXACT) / max(after.fitted, _EXACT))
-    return bool(gain > (many - few) * np.log(count))
+    gain = 2 * samples * np.log(max(before.fitted, _EXACT) / max(after.fitted, _EXACT))
+    return bool(gain > (many - few) * np.log(samples))
 
 
 def _simplicity(trial: Trial) -> tuple[int, float]:

@@ -10,14 +10,15 @@ import numpy as np
 from .._core import Recording
 from ..errors import InputError
 from ..model import Level, Model
+from .bounds import notes_of, words_of
 from .campaign import Campaign, read_campaign
-from .choose import Trial, choose, laws_of, leave_one_current_out, misfit, share
+from .choose import OnTrial, Trial, choose, laws_of, leave_one_current_out, misfit, share
 from .intervals import Spread, independent_samples, read_spread
 from .joint import Joint, fit
 from .law import FEWEST, LAWS
 from .structure import Structure
 from .tangents import values_of
-from .variable import Over, check_over
+from .variable import UNITS, Over, check_over
 
 
 @dataclass(frozen=True)
@@ -29,8 +30,9 @@ class LawFit:
     """Rms error in N over all samples, by the weights of the fit."""
     relative_rms: float
     """The same as a share of the force's rms."""
-    by_level: Mapping[float, float]
-    """The same by level of the current in A, or of what else the laws run over."""
+    by_level: Mapping[float | str, float]
+    """The same by level of the current in A, or of what else the laws run over; of recordings in which that
+    changes, by name."""
     left_out: Trial | None
     """How well each level is predicted from the others; None where there are too few."""
     trials: tuple[Trial, ...]
@@ -38,20 +40,36 @@ class LawFit:
     samples: int
     spread: Spread | None = field(default=None, compare=False, repr=False)
     """Intervals of the laws' values; None where the recordings could be read only once."""
+    notes: tuple[str, ...] = ()
+    """One a value of the laws: whether a bound holds it, or empty."""
+    chosen_blindly: bool = False
+    """True where laws were wanted and nothing could be left out to choose them by."""
 
     def rows(self) -> list[dict[str, Any]]:
-        """Values of the laws: parameter, law, at, value, low, high, unit.
+        """Values of the laws: parameter, law, at, value, low, high, unit, note.
 
         ``at`` is what has the value, None where all have it; the saturation of a law has a row of its own.
         ``low`` and ``high`` are the ends of the 95 % interval, None where the recordings do not determine
-        the value or a bound holds it.
+        the value or a bound holds it; ``note`` says so of a bound.
         """
         values = values_of(self.model.laws, self.model.units, self.model.over)
         intervals = [None] * len(values) if self.spread is None else self.spread.intervals
+        notes = self.notes or ("",) * len(values)
         return [
-            asdict(value) | dict(zip(("low", "high"), interval or (None, None), strict=True))
-            for value, interval in zip(values, intervals, strict=True)
+            asdict(value) | dict(zip(("low", "high"), interval or (None, None), strict=True)) | {"note": note}
+            for value, interval, note in zip(values, intervals, notes, strict=True)
         ]
+
+    @property
+    def words(self) -> tuple[str, ...]:
+        """What to look at: parameters that a bound holds, laws that nothing could tell apart."""
+        said = words_of(self.rows(), UNITS[self.model.over])
+        if self.chosen_blindly:
+            said.append(
+                f"laws were not chosen by what they predict: no {self.model.over} and no recording lies"
+                " between others, so that none could be left out"
+            )
+        return tuple(said)
 
     def to_dict(self) -> dict[str, Any]:
         """Content of ``laws.json``."""
@@ -67,6 +85,7 @@ class LawFit:
             "left_out": None if self.left_out is None else _trial(self.left_out),
             "trials": [_trial(trial) for trial in self.trials],
             "samples": self.samples,
+            "words": list(self.words),
         }
 
 
@@ -79,6 +98,7 @@ def fit_laws(
     over: Over = "current",
     bounds: Mapping[str, tuple[float, float]] | None = None,
     weights: Literal["samples", "force"] = "samples",
+    on_trial: OnTrial | None = None,
 ) -> LawFit:
     """Fit all currents of a campaign together, with a law over the current for every parameter.
 
@@ -95,6 +115,8 @@ def fit_laws(
         ``"constant"``, ``"linear"``, ``"quadratic"``, ``"saturating"`` or ``"free"`` by parameter. Those not
         named are chosen: by the error at currents that are left out of the fit, the outermost as fitted; and
         where the fit to all speaks plainly for a change (Schwarz's criterion), a parameter is not constant.
+        A current between others is left out; where there is none, a recording in which the current changes
+        within what others cover.
     shared : sequence of str
         Parameters that are the same at all currents; the same as ``"constant"``.
     over : {"current", "temperature", "amplitude"}
@@ -104,6 +126,8 @@ def fit_laws(
         Of the values of a parameter, in place of the default ones.
     weights : {"samples", "force"}
         Every sample counts the same, or every recording by its mean squared force.
+    on_trial : callable, optional
+        Called with (round from 1, trials done in it, trials in it) while laws are chosen.
 
     Returns
     -------
@@ -114,7 +138,7 @@ def fit_laws(
     ------
     MreError
         An unknown model, parameter or law; a law with more values than there are currents; a recording
-        without force or current.
+        without force or current, or one that is there twice.
     """
     from threadpoolctl import threadpool_limits  # type: ignore[import-untyped]
 
@@ -126,20 +150,21 @@ def fit_laws(
     with threadpool_limits(1, "blas"):  # the same bits on any machine, and no waiting of small matrices
         campaign = read_campaign(recordings, structure, bounds or {}, over, by_force=weights == "force")
         for name, kind in given.items():
-            if len(campaign.levels) < FEWEST[kind]:
-                found = f"{kind} for {name} with {len(campaign.levels)} levels of the {over}"
+            if campaign.variety < FEWEST[kind]:
+                found = f"{kind} for {name} with {campaign.variety} levels of the {over}"
                 raise InputError(found, wanted=f"at least {FEWEST[kind]}")
         kinds, trials, start = given, list[Trial](), None
         if len(given) < len(structure.names):
             once = isinstance(recordings, Iterator)
             count = None if once else partial(independent_samples, recordings, campaign, over=over)
-            kinds, trials, start = choose(campaign, given, count)
+            kinds, trials, start = choose(campaign, given, count, on_trial)
         joint = fit(campaign, laws_of(kinds, campaign.levels), start)
         left_out = leave_one_current_out(campaign, kinds, joint)
         spread = None
         if not isinstance(recordings, Iterator):
             spread = read_spread(recordings, campaign, joint, over, by_force=weights == "force")
-        return _result(campaign, joint, over, left_out, trials, spread)
+        blindly = len(given) < len(structure.names) and not trials and len(campaign.levels) > 1
+        return _result(campaign, joint, over, left_out, trials, spread, blindly)
 
 
 def _given(structure: Structure, laws: Mapping[str, str], shared: Sequence[str]) -> dict[str, str]:
@@ -162,6 +187,7 @@ def _result(
     left_out: Trial | None,
     trials: Sequence[Trial],
     spread: Spread | None,
+    blindly: bool,
 ) -> LawFit:
     tested = campaign.levels
     # A level is one of the current; laws over something else are shown at the middle of it.
@@ -176,10 +202,7 @@ def _result(
     )
     ends = {} if over == "current" else {f"{over}_from": tested[0], f"{over}_to": tested[-1]}
     squares, force = misfit(campaign, joint)
-    by_level = {}
-    for part in campaign.parts:
-        if len(part.currents) == 1:
-            by_level[part.currents[0]] = share(misfit(campaign.only(part.currents[0]), joint))
+    by_level = {part.label: share(misfit(campaign.only(part), joint)) for part in campaign.parts}
     return LawFit(
         Model(
             campaign.structure.model, levels, {**campaign.tested, **ends}, laws=joint.parameters, over=over
@@ -191,6 +214,8 @@ def _result(
         tuple(trials),
         campaign.samples,
         spread,
+        notes_of(campaign, joint.parameters, over),
+        blindly,
     )
 
 
@@ -205,5 +230,8 @@ def _trial(trial: Trial) -> dict[str, Any]:
     }
 
 
-def _rows(by_level: Mapping[float, float]) -> list[dict[str, float]]:
-    return [{"level": level, "relative_rms": error} for level, error in by_level.items()]
+def _rows(by_level: Mapping[float | str, float]) -> list[dict[str, float | str]]:
+    return [
+        {"recording" if isinstance(label, str) else "level": label, "relative_rms": error}
+        for label, error in by_level.items()
+    ]

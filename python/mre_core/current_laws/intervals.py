@@ -1,6 +1,6 @@
 """95 % intervals of the values of laws, from a second reading of the recordings."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from .. import _core
 from .._core import Recording
 from ..grouping import each_of
+from .bounds import box_of, is_at
 from .campaign import Campaign, weight_of
 from .joint import Joint
 from .tangents import Value, slopes, tangents, values_of
@@ -36,6 +37,8 @@ class Spread:
     """Of the values, shape (p, p)."""
     quantile: float
     """Of Student's t."""
+    limits: Mapping[str, Interval]
+    """What is physically admissible, by parameter: no interval goes beyond."""
 
     def at(self, joint: Joint, level: float) -> dict[str, Interval]:
         """Intervals of parameters at a level of what the laws run over, where their laws are determined."""
@@ -48,7 +51,7 @@ class Spread:
             if known:
                 reach = self.quantile * float(np.sqrt(slope @ self.covariance[part, part] @ slope))
                 value = float(p.at(level)[0])
-                found[name] = (value - reach, value + reach)
+                found[name] = _within(self.limits, name, (value - reach, value + reach))
         return found
 
 
@@ -101,7 +104,7 @@ def read_spread(
     little = np.full(size, np.inf)
     little[free] = _LITTLE * about_mean / np.sqrt(np.diag(plain)[free] / total)
     intervals = _intervals(campaign, values, covariance, quantile, little, set(free.tolist()))
-    return Spread(values, intervals, covariance, quantile)
+    return Spread(values, intervals, covariance, quantile, campaign.structure.limits(np.inf))
 
 
 def independent_samples(
@@ -135,7 +138,7 @@ def _intervals(
     errors = np.sqrt(np.maximum(np.diag(covariance), 0.0))
     loose = []
     for i, value in enumerate(values):
-        low, high = _box(campaign, value)
+        low, high = box_of(campaign, value)
         reach = quantile * errors[i]
         small = (reach < abs(value.value) or errors[i] < little[i]) and 2 * reach < high - low
         loose.append(not small and not _fixed(campaign, value) if i in free else not _fixed(campaign, value))
@@ -147,30 +150,26 @@ def _intervals(
         if i not in free or loose[i] or tied or _held(campaign, value):
             found.append(None)
             continue
-        low, high = campaign.structure.limits(np.inf).get(value.parameter, (-np.inf, np.inf))
         reach = quantile * float(errors[i])
-        found.append((max(value.value - reach, low), min(value.value + reach, high)))
+        reached = (value.value - reach, value.value + reach)
+        found.append(_within(campaign.structure.limits(np.inf), value.parameter, reached))
     return tuple(found)
 
 
-def _box(campaign: Campaign, value: Value) -> Interval:
-    """Where a value was searched; a saturation is bounded by none that means anything."""
-    if value.parameter in campaign.limits:
-        return campaign.limits[value.parameter]
-    if value.parameter in campaign.shape_boxes:
-        box = campaign.shape_boxes[value.parameter]
-        return box.low, box.high
-    return 0.0, np.inf
+def _within(limits: Mapping[str, Interval], parameter: str, interval: Interval) -> Interval:
+    low, high = limits.get(parameter, (-np.inf, np.inf))
+    return max(interval[0], low), min(interval[1], high)
 
 
 def _fixed(campaign: Campaign, value: Value) -> bool:
-    low, high = _box(campaign, value)
+    low, high = box_of(campaign, value)
     return low == high
 
 
 def _held(campaign: Campaign, value: Value) -> bool:
     """Tell whether a value lies on a bound that is no physical limit."""
     physical = campaign.structure.limits(np.inf).get(value.parameter, (-np.inf, np.inf))
-    ends = zip(_box(campaign, value), physical, strict=True)
-    near = 1e-6 * max(abs(value.value), 1e-300)
-    return any(end != limit and abs(value.value - end) <= near for end, limit in ends)
+    return any(
+        end != limit and is_at(value, end)
+        for end, limit in zip(box_of(campaign, value), physical, strict=True)
+    )

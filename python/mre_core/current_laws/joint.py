@@ -157,7 +157,7 @@ def _alone(campaign: Campaign) -> Callable[[float], Mapping[str, float]]:
         if isinstance(part, Steady) and isinstance(part.factor, DirectFactor):
             box = {name: (b.low, b.high) for name, b in campaign.shape_boxes.items()}
             problem = Problem(part.factor.recordings, campaign.structure.model, box)
-            found[part.currents[0]] = hybrid(problem, seed=1).values
+            found[part.currents[0]] = hybrid(problem, seed=1, max_iterations=3).values
     if not found:
         middle = {name: b.value(sum(b.ends) / 2) for name, b in campaign.shape_boxes.items()}
         return lambda _: middle

@@ -20,6 +20,8 @@ class ShapeBox:
     low: float
     high: float
     logarithmic: bool
+    limits: tuple[float, float] = (-np.inf, np.inf)
+    """What is physically admissible."""
 
     @property
     def ends(self) -> tuple[float, float]:
@@ -62,7 +64,8 @@ def shape_boxes(
     given = {name: bounds[name] for name in structure.shapes if name in bounds}
     problem = Problem(list(kept), structure.model, given)
     box = dict(zip(problem.names, zip(problem.lower, problem.upper, strict=True), strict=True))
+    limits = dict(zip(problem.names, problem.limits, strict=True))
     return {
-        name: ShapeBox(float(box[name][0]), float(box[name][1]), name in _LOGARITHMIC)
+        name: ShapeBox(float(box[name][0]), float(box[name][1]), name in _LOGARITHMIC, limits[name])
         for name in structure.shapes
     }
