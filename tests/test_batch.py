@@ -257,6 +257,7 @@ def test_out_of_time(tmp_path: Path) -> None:
     out = tmp_path / "out"
     table = mre_core.batch(folder, out, budget=0.4, **given)
     assert set(table["error"]) == {"not done within 0.4 s"}
+    assert (table["fit_time"] >= 0.39).all()
     given = FAST
     other = tmp_path / "other"
     assert set(mre_core.batch(folder, other, budget=1e-6, **given)["status"]) == {"failed"}
@@ -434,9 +435,18 @@ def test_refused(cli: Cli, five: Path, tmp_path: Path) -> None:
     assert "both a seed and seeds" in refused(*sinh, *new, "--seeds", "1:3", "--seed", "1")
     assert "budget is -1.0 s" in refused(*sinh, *new, "--budget", "-1")
     assert "workers is 0" in refused(*sinh, *new, "--workers", "0")
-    assert "false_alarm is given, which a batch that is to identify does not take" in refused(
-        *sinh, *new, "--false-alarm", "0.1"
+    assert (
+        refused(*sinh, *new, "--false-alarm", "0.1")
+        == "--false-alarm with --model, wanted no --false-alarm there"
     )
+    assert refused(*sinh, *new, "--fixed") == "--fixed with --model, wanted no --fixed there"
+    assert "--fish with --optimizer exact" in refused(*sinh, *new, "--fish", "9")
+    assert "--bootstrap with --base" in refused(
+        "batch", five, "--base", "sinh", "--bootstrap", "9", "--quiet", *new
+    )
+    for wrong in ({"budget": "x"}, {"budget": float("nan")}, {"workers": "x"}, {"workers": 1.5}):
+        with pytest.raises(InputError, match=f"{next(iter(wrong))} is "):
+            mre_core.batch(five, tmp_path / "new", model="sinh", **wrong)
     with sqlite3.connect(out / "batch.sqlite3") as db:
         db.execute("update batch set version = '0.0.1'")
     db.close()

@@ -123,6 +123,15 @@ def test_a_folder_of_notes_is_refused(cli: Cli, tmp_path: Path) -> None:
     status, _, err = cli("batch", tmp_path / "in", "--model", "sinh", "--out", tmp_path / "out", "--quiet")
     said = f"{tmp_path / 'in'}: no recording, but notes (notes.txt), wanted at least one recording"
     assert (status, err) == (2, f"mre-core: {said}\n")
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_text_that_should_be_a_recording_is_listed(tmp_path: Path) -> None:
+    (tmp_path / "in").mkdir()
+    (tmp_path / "in" / "talk.csv").write_text("It was loud.\nThen it stopped.\n", encoding="utf-8")
+    found = mre_core.batch(tmp_path / "in", tmp_path / "out", **FAST)
+    assert found[["item", "status"]].to_numpy().tolist() == [["talk.csv", "failed"]]
+    assert "talk.csv: no rows of numbers" in str(found.at[0, "error"])
 
 
 def test_results_are_no_item_and_said(cli: Cli, folder: Path) -> None:

@@ -11,7 +11,7 @@ from typing import Any
 import mre_core
 import pytest
 from mre_core import InputError
-from mre_core.batches.cluster import cluster_engine
+from mre_core.batches.cluster import _check_workers, cluster_engine
 from pandas.testing import assert_frame_equal
 from rig import Cli
 from test_batch import lasting, recordings
@@ -121,6 +121,61 @@ def test_the_scheduler_goes_away(cluster: Workers, tmp_path: Path) -> None:
     with pytest.raises(InputError, match="the workers are gone"):
         mre_core.batch(folder, out, cluster=cluster.address(), on_progress=kill, **SLOW)
     assert set(mre_core.batch(folder, out, **SLOW)["status"]) == {"done"}
+
+
+@pytest.mark.parametrize(
+    ("error", "problem"),
+    [
+        (
+            OSError("Timed out trying to connect"),
+            "the scheduler at tcp://a:1 or a worker went away: Timed out",
+        ),
+        (TimeoutError(), "went away: TimeoutError"),
+        (ModuleNotFoundError("No module named 'mre_core'"), "has other software: No module named 'mre_core'"),
+        (Exception("ModuleNotFoundError(\"No module named 'mre_core'\")"), "has other software: ModuleNot"),
+        (ValueError("Mismatched versions found"), "has other software: Mismatched versions"),
+        (
+            RuntimeError("broken"),
+            "a worker at tcp://a:1 failed when asked for its version: RuntimeError: broken",
+        ),
+    ],
+)
+def test_why_workers_could_not_be_asked(error: Exception, problem: str) -> None:
+    class Client:
+        def wait_for_workers(self, *_: object, **__: object) -> None: ...
+
+        def get_versions(self, **_: object) -> None:
+            raise error
+
+    with pytest.raises(InputError) as refused:
+        _check_workers(Client(), "tcp://a:1", 1)
+    assert problem in str(refused.value)
+    assert "\n" not in str(refused.value)
+
+
+def test_a_scheduler_that_dies_is_one_line(cluster: Workers, tmp_path: Path) -> None:
+    folder, out = recordings(tmp_path / "in", 30), tmp_path / "out"
+    cluster.add()
+    options = ["--model", "sinh", "--optimizer", "mafsa", "--no-figures", "--out", str(out)]
+    command = [
+        sys.executable,
+        "-m",
+        "mre_core",
+        "batch",
+        str(folder),
+        *options,
+        "--cluster",
+        cluster.address(),
+    ]
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    while not (out / "batch.sqlite3").exists():
+        assert process.poll() is None
+        time.sleep(0.02)
+    cluster.scheduler.kill()
+    shown, err = process.communicate(timeout=120)
+    assert (process.returncode, shown) == (2, "")
+    assert err.count("\n") == 1
+    assert err.startswith("mre-core: the workers are gone (")
 
 
 def test_another_version(cluster: Workers, tmp_path: Path) -> None:

@@ -9,6 +9,7 @@ import pickle
 import subprocess
 import sys
 import threading
+import time
 from pathlib import Path
 from typing import Self
 
@@ -28,9 +29,10 @@ class Child:
 
     def run(self, task: Task, budget: float | None) -> Outcome:
         """Work on one item for at most `budget` seconds."""
-        status = None
+        status, spent = None, 0.0
         for _ in range(ATTEMPTS):
             process = self._started()
+            begin = time.perf_counter()
             late = threading.Event()
             timer = threading.Timer(budget or 0.0, self._kill, (process, late))
             timer.daemon = True
@@ -47,12 +49,13 @@ class Child:
                 pass
             finally:
                 timer.cancel()
+            spent += time.perf_counter() - begin
             status = self._buried(process)
             if late.is_set():
-                seconds = budget or 0.0
-                return Outcome(task.item, task.seed, error=f"not done within {seconds:g} s", lasting=False)
+                problem = f"not done within {budget or 0.0:g} s"
+                return Outcome(task.item, task.seed, error=problem, lasting=False, seconds=spent)
         problem = f"its process died {ATTEMPTS} times (status {status}): out of memory?"
-        return Outcome(task.item, task.seed, error=problem, lasting=False)
+        return Outcome(task.item, task.seed, error=problem, lasting=False, seconds=spent)
 
     def close(self) -> None:
         """End the process, in the middle of an item if need be."""

@@ -17,6 +17,10 @@ from .engine import Engine
 _PATIENCE = 10.0
 """Seconds to wait for a scheduler and its workers."""
 _RETRIES = 3
+_MISSING = re.compile(
+    "No module named|ModuleNotFoundError|ImportError|AttributeError|mismatch", re.IGNORECASE
+)
+"""In an error that a worker could not send as what it was."""
 _LOCAL = re.compile(r"local:(\d{1,3})")
 
 
@@ -46,7 +50,8 @@ def cluster_engine(address: str, folder: Path, threads: int) -> Iterator[Engine]
         distributed: Any = import_module("distributed")
     except ImportError:
         raise InputError("Dask is not installed", wanted="pip install 'mre-core[cluster]'") from None
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what matters is said in one line
+    for name in ("distributed", "distributed.client", "tornado.application"):  # each has a level of its own
+        logging.getLogger(name).setLevel(logging.CRITICAL + 1)  # what matters is said in one line
     local = _LOCAL.fullmatch(address)
     if address.startswith("local") and (local is None or int(local[1]) == 0):
         raise InputError(f"cluster is '{address}'", wanted="local:N with N workers, or an address")
@@ -96,8 +101,7 @@ def _check_workers(client: Any, address: str, threads: int) -> int:
         client.get_versions(check=True)
         versions = client.run(_version)
     except Exception as error:  # what a worker raises may come as another kind
-        problem = f"a worker or the scheduler has other software: {one_line(str(error))}"
-        raise InputError(problem, wanted=wanted) from None
+        raise _unanswered(error, address, wanted) from None
     for worker, version in sorted(versions.items()):
         if version != __version__:
             raise InputError(f"worker {worker} has mre-core {version}", wanted=wanted)
@@ -107,6 +111,18 @@ def _check_workers(client: Any, address: str, threads: int) -> int:
             problem = f"worker {worker} takes {count} tasks at a time, of {threads} threads each"
             raise InputError(problem, wanted="one thread an item, or workers with --nthreads 1")
     return int(sum(counts.values()))
+
+
+def _unanswered(error: Exception, address: str, wanted: str) -> InputError:
+    """Say why workers could not be asked: the connection, their software, or what else it was."""
+    text = one_line(str(error))
+    if isinstance(error, OSError | TimeoutError):  # Dask's errors of a connection are OSErrors
+        problem = f"the scheduler at {address} or a worker went away: {text or type(error).__name__}"
+        return InputError(problem, wanted="a scheduler and workers that run, then the same command again")
+    if isinstance(error, ImportError | ValueError) or _MISSING.search(text):
+        return InputError(f"a worker or the scheduler has other software: {text}", wanted=wanted)
+    problem = f"a worker at {address} failed when asked for its version: {type(error).__name__}: {text}"
+    return InputError(problem, wanted=wanted)
 
 
 def _version() -> str:

@@ -4,15 +4,18 @@ import math
 import os
 import warnings
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from .._core import __version__
-from ..errors import InputError, SkippedWarning, listed
+from ..errors import InputError, SkippedWarning, listed, shown
 from ..minimise import draw_seed
-from .columns import read_results
+from ..stored import number
+from .columns import RESULTS, read_results
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -127,11 +130,22 @@ def batch(
             run.write(Path(out))
     results = read_results(out)
     if run.passed_over and results.empty:
+        _clear(Path(out))
         found = f"no recording, but notes ({listed(list(run.passed_over))})"
         raise InputError(found, file=str(folder), wanted="at least one recording")
     for problem in run.passed_over.values():
         warnings.warn(f"passed over: {problem}", SkippedWarning, stacklevel=2)
     return results
+
+
+def _clear(out: Path) -> None:
+    """Leave nothing of a batch that had nothing to do."""
+    from .journal import JOURNAL, LOCK
+
+    for name in (RESULTS, JOURNAL, LOCK):
+        (out / name).unlink(missing_ok=True)
+    with suppress(OSError):  # what else is in the folder stays
+        out.rmdir()
 
 
 def _check(
@@ -143,8 +157,8 @@ def _check(
         raise InputError(f"seeds are {list(seeds)}", wanted="at least one seed, each once")
     for each in seeds or ():
         draw_seed(each)  # refuses what is no seed
-    if budget is not None and not (math.isfinite(budget) and budget > 0):
-        raise InputError(f"budget is {budget} s", wanted="a positive number of seconds")
+    if budget is not None and not 0 < (seconds := number(budget, "budget")) < math.inf:
+        raise InputError(f"budget is {seconds} s", wanted="a positive number of seconds")
     for name, value in (("workers", workers), ("threads", threads)):
-        if value is not None and not 1 <= value <= 1024:
-            raise InputError(f"{name} is {value}", wanted="a whole number from 1 to 1024")
+        if value is not None and not (isinstance(value, int | np.integer) and 1 <= value <= 1024):
+            raise InputError(f"{name} is {shown(value)}", wanted="a whole number from 1 to 1024")

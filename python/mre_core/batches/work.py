@@ -65,7 +65,7 @@ def work(task: Task) -> Outcome:
                 row, model = _result(_loaded(files, task), task)
             except MreError as problem:
                 error = _without_folders(str(problem), files, task)
-                notes = isinstance(problem, NotesError)
+                notes = isinstance(problem, NotesError) and _is_for_notes(problem.file)
                 lasting = not isinstance(problem.__context__, OSError)  # a disk may come back
         if not error:
             texts = [_without_folders(one_line(str(w.message)), files, task) for w in said]
@@ -79,6 +79,11 @@ def work(task: Task) -> Outcome:
         error = one_line(error)
         return Outcome(task.item, task.seed, error=error, notes=notes, lasting=lasting, seconds=seconds)
     return Outcome(task.item, task.seed, row, model, seconds=seconds)
+
+
+def _is_for_notes(file: str | None) -> bool:
+    """Tell a text for people from a recording that holds none."""
+    return Path(file or "").suffix.lower() == ".txt"
 
 
 @contextmanager

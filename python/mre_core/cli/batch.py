@@ -1,10 +1,12 @@
 """``mre-core batch``."""
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from ..errors import InputError
 from .arguments import pairs, read_bounds, read_interval, read_parts, read_seeds
 from .options import WHOLE, common_options, fit_options, report_options, trim_options
 
@@ -13,6 +15,7 @@ if TYPE_CHECKING:
 
     from ..output import Stage
 
+_OF_A_SWARM = ("fish", "iterations")
 _SHOWN = 20
 """Failed items that are shown; all are in the table."""
 
@@ -82,6 +85,9 @@ def batch(
     from .progress import counter
     from .settings import write_settings
 
+    _check(
+        options | {"fish": fish, "iterations": iterations, "fixed": fixed or None, "bounds": bounds or None}
+    )
     options["n_particles" if options["optimizer"] == "pso" else "n_fish"] = fish
     options |= {"max_iterations": iterations, "fixed": fixed or None}
     with counter("batch", quiet=quiet) as on_progress:
@@ -108,6 +114,23 @@ def batch(
     elif not quiet:
         _print(results, out)
     return 0 if (results["status"] == "done").any() else 1
+
+
+_OF_A_DIAGNOSIS = ("false_alarm", "fixed")
+_OF_AN_IDENTIFICATION = ("optimizer", "bounds", "weights", "bootstrap", *_OF_A_SWARM)
+
+
+def _check(options: Mapping[str, Any]) -> None:
+    """Refuse options that the job does not take, by the names that were typed."""
+    for names, other in (
+        (_OF_A_DIAGNOSIS if options["base"] is None and options["model"] is not None else (), "--model"),
+        (_OF_AN_IDENTIFICATION if options["model"] is None and options["base"] is not None else (), "--base"),
+        (_OF_A_SWARM if options["optimizer"] == "exact" else (), "--optimizer exact"),
+    ):
+        for name in names:
+            if options.get(name) is not None:
+                option = f"--{name.replace('_', '-')}"
+                raise InputError(f"{option} with {other}", wanted=f"no {option} there")
 
 
 def _draw(stage: "Stage", results: "pd.DataFrame") -> None:
