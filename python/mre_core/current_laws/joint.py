@@ -15,7 +15,7 @@ from .law import Dependence, Law
 
 Array = NDArray[np.float64]
 _GRID = 25
-_STEP = 1e-6
+_STEP = 1e-7
 """Of the differences in the last descent, as a share of the box."""
 _EVALUATIONS = 150
 """Most evaluations of the last descent, for every variable."""
@@ -64,7 +64,7 @@ def fit(
     laws: Mapping[str, Law],
     start: Joint | None = None,
     held: Mapping[str, Dependence] | None = None,
-    precision: float = 1e-10,
+    precision: float = 1e-13,
 ) -> Joint:
     """Search shapes and saturation currents, with the coefficients solved for each.
 
