@@ -533,7 +533,7 @@ def test_one_changing_current_chooses_nothing_and_says_so() -> None:
 
 def test_a_copy_under_another_name_is_refused() -> None:
     first = campaign((0.0, 1.0))
-    copy = Recording(first[0].time, first[0].displacement, first[0].force, current=1.0, name="copy")
+    copy = Recording(first[0].time, first[0].displacement, first[0].force, current=0.0, name="copy")
     for work in (mre_core.fit_laws, mre_core.identify, mre_core.diagnose):
         with pytest.raises(InputError, match="a recording is given twice, as '3mm0A' and as 'copy'"):
             work([*first, copy], "sinh")

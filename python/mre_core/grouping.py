@@ -29,10 +29,11 @@ def each_of(recordings: Recording | Iterable[Recording]) -> Iterator[Recording]:
 
 
 def content_of(recording: Recording) -> bytes:
-    """Digest of what was measured, whatever the recording is called."""
+    """Digest of what was measured and under which conditions, whatever the recording is called."""
     found = blake2b(digest_size=16)
-    for series in (recording.time, recording.displacement, recording.force):
-        found.update(b"" if series is None else series.tobytes())
+    conditions = (recording.current, recording.temperature)
+    for series in (recording.time, recording.displacement, recording.force, *conditions):
+        found.update(b"none" if series is None else np.asarray(series, dtype=np.float64).tobytes())
     return found.digest()
 
 
