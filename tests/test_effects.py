@@ -9,8 +9,9 @@ import mre_core
 import numpy as np
 import pytest
 from missing import K_M, TAU, campaign, maxwell, record, with_series
-from mre_core import Effect, InputError, Level, Model, MreError, _core
-from rig import SINH, motion
+from mre_core import Effect, InputError, Level, Model, MreError, Recording, _core
+from numpy.typing import NDArray
+from rig import BOUC_WEN, SINH, motion, rms
 
 # The contract's list.
 IDS = """
@@ -69,6 +70,43 @@ def test_a_mass_against_its_closed_form() -> None:
     # N from kg and mm/s^2; the acceleration is derived from the velocity, worst at the ends.
     expected = -20e-3 * (2 * np.pi) ** 2 * moved.displacement
     np.testing.assert_allclose(added[10:-10], expected[10:-10], atol=1e-3 * np.abs(expected).max())
+
+
+def test_a_device_that_is_stiffer_than_its_rig_against_numpy() -> None:
+    # (kx + kw rho) f = 1.4: to put the force back into what it was made from would diverge.
+    truth, flexibility, turn, fine = {**BOUC_WEN, "F0": 0.0}, 0.04, 2 * np.pi, 16
+    c0, kx, kw, rho, sigma, n = (truth[name] for name in ("c0", "kx", "kw", "rho", "sigma", "n"))
+
+    def reached(time: float) -> float:
+        return float(4.0 * np.sin(turn * time) * min(time, 1.0) ** 2)
+
+    def force(time: float, x: float) -> float:
+        return (reached(time) - x) / flexibility
+
+    def rates(time: float, state: NDArray[np.float64]) -> NDArray[np.float64]:
+        x, z = state
+        v = (force(time, x) - kx * x - kw * z) / c0
+        return np.array(
+            [v, rho * (v - sigma * abs(v) * abs(z) ** (n - 1) * z + (sigma - 1) * v * abs(z) ** n)]
+        )
+
+    time = np.arange(3 * 256 + 1) / 256
+    h, state, expected = 1 / (256 * fine), np.zeros(2), []
+    for i in range(fine * 3 * 256 + 1):
+        t = i * h
+        if i % fine == 0:
+            expected.append(force(t, state[0]))
+        a = rates(t, state)
+        b = rates(t + h / 2, state + h / 2 * a)
+        c = rates(t + h / 2, state + h / 2 * b)
+        state = state + h / 6 * (a + 2 * b + 2 * c + rates(t + h, state + h * c))
+    displacement = np.array([reached(t) for t in time])
+    late = np.minimum(time, 1.0)
+    velocity = 4.0 * (turn * np.cos(turn * time) * late**2 + np.sin(turn * time) * 2 * late * (time < 1))
+    moved = Recording(time, displacement, None, velocity=velocity)
+    rig = Effect("rig_compliance", "spring in series", {"f_r": flexibility})
+    found = mre_core.simulate(Model("bouc_wen", (Level(None, truth),), effects=(rig,), sizes=SIZES), moved)
+    assert rms(found - np.array(expected)) < 2e-3 * rms(np.array(expected))
 
 
 def test_effects_add_up() -> None:

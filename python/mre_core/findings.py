@@ -40,6 +40,11 @@ def levels_of(
         Level(
             current if level["current"] is None else level["current"],
             dict(zip(symbols, level["values"], strict=True)),
+            {
+                symbol: (ends[0], ends[1])
+                for symbol, ends in zip(symbols, level["intervals"], strict=True)
+                if ends is not None
+            },
         )
         for current, group in zip(currents, groups, strict=True)
         for level in group["levels"]

@@ -1,6 +1,7 @@
 //! A diagnosis as JSON.
 
 use mre::assembly::{Assembly, Base};
+use mre::device::Level;
 use mre::diagnose::{
     self, Blank, Diagnosis, Estimate, Estimates, NextTest, On, Place, Proof, Prospect, Unknown,
 };
@@ -176,27 +177,28 @@ fn place(place: &Place, strength: f64) -> Value {
     }
 }
 
-/// Parameters of the model for every group, in the model's order.
+/// Parameters of the model for every group, in the model's order, with their intervals where a group has one level.
 fn levels(base: &Base, estimates: &Estimates) -> Vec<Value> {
-    let (mut coefficient, mut shape) = (0, 0);
+    let (mut coefficients, mut shapes) = (estimates.coefficients.iter(), estimates.shapes.iter());
     base.groups()
         .iter()
         .map(|group| {
-            let mut values = vec![0.0; group.problem.parameters().len()];
-            for place in &group.coefficients {
-                values[*place] = estimates.coefficients[coefficient].value;
-                coefficient += 1;
+            let mut own: Vec<Option<&Estimate>> = vec![None; group.problem.parameters().len()];
+            for (place, estimate) in group.coefficients.iter().zip(coefficients.by_ref()) {
+                own[*place] = Some(estimate);
             }
-            for place in &group.shapes {
-                values[*place] = estimates.shapes[shape].value;
-                shape += 1;
+            for (place, estimate) in group.shapes.iter().zip(shapes.by_ref()) {
+                own[*place] = Some(estimate);
             }
-            let law = group.problem.law();
-            let levels = law.levels(&values, None);
-            json!({
-                "members": group.members,
-                "levels": levels.iter().map(|l| json!({"current": l.current, "values": l.values})).collect::<Vec<_>>(),
-            })
+            let values: Vec<f64> = own.iter().map(|e| e.map_or(0.0, |e| e.value)).collect();
+            let levels = group.problem.law().levels(&values, None);
+            let ends = |e: &Estimate| (e.low.is_finite() && e.high.is_finite()).then_some([e.low, e.high]);
+            let intervals: Vec<Option<[f64; 2]>> = match levels.len() {
+                1 => own.iter().map(|e| e.and_then(ends)).collect(),
+                _ => vec![None; levels[0].values.len()],
+            };
+            let level = |l: &Level| json!({"current": l.current, "values": l.values, "intervals": intervals});
+            json!({"members": group.members, "levels": levels.iter().map(level).collect::<Vec<_>>()})
         })
         .collect()
 }

@@ -154,7 +154,7 @@ impl Assembly<'_> {
     }
 
     /// The shapes of each effect.
-    fn shape_of<'s>(&self, shapes: &'s [f64]) -> Vec<&'s [f64]> {
+    pub(super) fn shape_of<'s>(&self, shapes: &'s [f64]) -> Vec<&'s [f64]> {
         let mut next = self.base_shapes();
         let own = |effect: &&'static dyn Effect| {
             let count = effect.shape(self.campaign.sizes()).len();

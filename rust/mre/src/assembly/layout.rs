@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::base::{Base, Group};
 use super::campaign::Campaign;
 use super::columns::Known;
+use super::in_series::nearer;
 use crate::effect::{Effect, Scene};
 use crate::parameter::{Parameter, Scale};
 use crate::recording::Recording;
@@ -84,9 +85,19 @@ impl<'a> Assembly<'a> {
         let shapes = self.physical(unit);
         let device = self.device_coefficients();
         let own: Vec<f64> = coefficients.iter().zip(device).map(|(c, d)| if d { *c } else { 0.0 }).collect();
-        let recordings = 0..self.campaign.recordings().len();
-        let whole = recordings.map(|r| self.columns(r, &shapes).force(&own)).collect();
+        let flexibility = self.flexibility(&shapes);
+        let better = |(r, recording): (usize, &Arc<Recording>)| {
+            let given = self.columns(r, &shapes).force(&own);
+            flexibility.map_or_else(|| given.clone(), |f| nearer(recording, &self.whole[r], &given, f))
+        };
+        let whole = self.campaign.recordings().iter().enumerate().map(better).collect();
         Self { whole: Arc::new(whole), known: None, ..self.clone() }
+    }
+
+    /// What the effects take from the motion for each newton of the device, mm/N; `None`: nothing follows from it.
+    pub fn flexibility(&self, shapes: &[f64]) -> Option<f64> {
+        let own = self.effects.iter().zip(self.shape_of(shapes));
+        own.filter_map(|(effect, shape)| effect.flexibility(shape)).reduce(|a, b| a + b)
     }
 
     /// What effects see of a recording.

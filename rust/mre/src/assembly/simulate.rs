@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::campaign::Campaign;
+use super::in_series::nearer;
 use crate::device::Device;
 use crate::effect::{Effect, Factors, Scene, Sizes};
 use crate::error::{Error, Result};
@@ -10,7 +11,9 @@ use crate::physics::Part;
 use crate::recording::Recording;
 
 /// Passes until the force agrees with what effects saw of it.
-const PASSES: usize = 12;
+const PASSES: usize = 40;
+/// Share of the largest force by which two forces that agree differ.
+const AGREED: f64 = 1e-9;
 
 /// An effect with its parameters.
 #[derive(Clone)]
@@ -46,10 +49,19 @@ pub fn simulate(
         return Ok(alone);
     }
     let campaign = Campaign::with_sizes(vec![recording.clone()], sizes.clone());
-    let passes = if additions.iter().any(|a| a.effect.follows_the_force()) { PASSES } else { 1 };
-    let mut force = alone.clone();
-    for _ in 0..passes {
-        force = pass(device, additions, recording, &campaign.scene(0, &alone, &force))?;
+    let flexibility = additions.iter().filter_map(|a| a.effect.flexibility(&a.shape)).reduce(|a, b| a + b);
+    let pass = |known: &[f64]| pass(device, additions, recording, &campaign.scene(0, &alone, known));
+    let mut force = pass(&alone)?;
+    if let Some(flexibility) = flexibility {
+        let mut known = alone.clone();
+        for _ in 0..PASSES {
+            let better = nearer(recording, &known, &force, flexibility);
+            if !apart(&known, &better) {
+                break;
+            }
+            known = better;
+            force = pass(&known)?;
+        }
     }
     match force.iter().position(|f| !f.is_finite()) {
         None => Ok(force),
@@ -97,6 +109,12 @@ fn pass(device: &Device, additions: &[Addition], recording: &Recording, scene: &
         force = effect.through(scene, shape, &force).unwrap_or(force);
     }
     Ok(force)
+}
+
+/// True where two forces do not agree yet.
+fn apart(a: &[f64], b: &[f64]) -> bool {
+    let largest = b.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+    a.iter().zip(b).any(|(a, b)| (a - b).abs() > AGREED * largest)
 }
 
 fn factor(factors: &Factors, part: Part, i: usize) -> f64 {

@@ -14,6 +14,7 @@ use super::plain_mismatch;
 use super::point::forces;
 use super::screen::Score;
 use super::settings::Settings;
+use super::starts::without_initial_state;
 use crate::assembly::Assembly;
 use crate::effect::{CATALOGUE, Effect};
 use crate::recording::Recording;
@@ -72,10 +73,11 @@ pub(super) fn steps(assembly: &Assembly) -> Vec<f64> {
     assembly.campaign().recordings().iter().map(|r| 1.0 / r.sampling_rate()).collect()
 }
 
-/// Residuals in N of a fit, of the samples that are scored.
+/// Residuals in N of a fit, of the samples that are scored, less what unknown initial states explain of them.
 pub(super) fn residuals(assembly: &Assembly, data: Data, fitted: &Fitted) -> Vec<Vec<f64>> {
     let recordings = assembly.campaign().recordings().iter();
-    recordings.zip(forces(assembly, data, fitted)).map(|(r, force)| of_the_scored(r, &force)).collect()
+    let left = recordings.zip(forces(assembly, data, fitted)).map(|(r, force)| of_the_scored(r, &force));
+    left.enumerate().map(|(r, left)| without_initial_state(assembly, r, left)).collect()
 }
 
 /// Measured less modelled force in N, of the samples that are scored.
@@ -168,7 +170,7 @@ pub(super) fn joint<'a>(
 /// Fit from a point of the unit box; repeated where an effect follows from the force that is fitted.
 pub(super) fn fit<'a>(mut assembly: Assembly<'a>, data: Data, unit: &[f64]) -> Candidate<'a> {
     let mut fitted = refine(&assembly, data, unit);
-    if assembly.effects().iter().any(|e| e.follows_the_force()) {
+    if assembly.flexibility(&assembly.physical(&fitted.unit)).is_some() {
         for _ in 0..PASSES {
             assembly = assembly.seeing_its_force(&fitted.unit, &fitted.coefficients);
             fitted = refine(&assembly, data, &fitted.unit);

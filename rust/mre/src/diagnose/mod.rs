@@ -41,6 +41,7 @@ mod screen;
 mod search;
 mod settings;
 mod splits;
+mod starts;
 mod step;
 mod unknown;
 mod unnamed;

@@ -19,6 +19,7 @@ use super::screen::Score;
 use super::search::{Named, Search};
 use super::settings::Settings;
 use super::splits::{Split, Splits};
+use super::starts::with_initial_states;
 use super::unknown::{self, Unknown};
 use super::verdict::Verdict;
 use crate::assembly::{Base, Campaign};
@@ -152,8 +153,8 @@ fn models<'a>(begun: &Begun<'a>, base: Fitted, named: Named<'a>, data: Data) -> 
         base_estimates: estimates(&begun.assembly, data, &base.unit),
         estimates: estimates(&named.assembly, data, &named.fitted.unit),
         proofs: None,
-        base_force: forces(&begun.assembly, data, &base),
-        final_force: forces(&named.assembly, data, &named.fitted),
+        base_force: with_initial_states(&begun.assembly, forces(&begun.assembly, data, &base)),
+        final_force: with_initial_states(&named.assembly, forces(&named.assembly, data, &named.fitted)),
         base: Named::bare(begun.assembly.clone(), base, named.noise.clone()),
         named,
         broken_off: data.monitor.broken_off(),

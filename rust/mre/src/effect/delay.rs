@@ -10,9 +10,14 @@ use crate::parameter::Parameter;
 /// From here on the elimination of a spline has the same factor, to the last bit.
 const SETTLED: usize = 32;
 
-/// A pure delay between the channels.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct TimeDelay;
+/// What is measured of a force that is from before a recording began, or from after it ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum TimeDelay {
+    /// The force goes on as it begins: the recording is a part of a longer one.
+    Continued,
+    /// The force stays as it begins: the device is held there.
+    Held,
+}
 
 /// The series at `time - delay`, by a natural cubic spline; along its end slopes beyond its ends.
 pub(super) fn delayed(step: f64, series: &[f64], delay: f64) -> Vec<f64> {
@@ -64,7 +69,10 @@ impl Effect for TimeDelay {
     fn about(&self) -> About {
         About {
             effect: "time_delay",
-            law: "pure delay",
+            law: match self {
+                Self::Continued => "pure delay",
+                Self::Held => "pure delay, held before",
+            },
             plain: "one channel lags the other by a fixed time",
             equation: "F_measured(t) = F(t - d)",
             reference: "general",
@@ -81,6 +89,14 @@ impl Effect for TimeDelay {
     }
 
     fn through(&self, scene: &Scene, shape: &[f64], force: &[f64]) -> Option<Vec<f64>> {
-        Some(delayed(scene.step(), force, shape[0]))
+        let mut found = delayed(scene.step(), force, shape[0]);
+        if *self == Self::Held {
+            let (last, shift) = (force.len() - 1, shape[0] / scene.step());
+            let early = (shift.ceil().max(0.0) as usize).min(force.len());
+            found[..early].fill(force[0]);
+            let late = ((-shift).ceil().max(0.0) as usize).min(force.len());
+            found[force.len() - late..].fill(force[last]);
+        }
+        Some(found)
     }
 }

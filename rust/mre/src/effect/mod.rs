@@ -170,10 +170,11 @@ pub trait Effect: Send + Sync {
         false
     }
 
-    /// True where the effect follows from the force of the device with all its effects: a fit is then
-    /// repeated until that force agrees with what the effect saw.
-    fn follows_the_force(&self) -> bool {
-        false
+    /// What the effect takes from the motion for each newton of the device with all its effects, mm/N. A fit is
+    /// then repeated until that force agrees with what the effect saw.
+    fn flexibility(&self, shape: &[f64]) -> Option<f64> {
+        let _ = shape;
+        None
     }
 
     /// Factors on the terms of the base model.

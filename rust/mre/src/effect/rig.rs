@@ -61,8 +61,8 @@ impl Effect for Rig {
         }
     }
 
-    fn follows_the_force(&self) -> bool {
-        true
+    fn flexibility(&self, shape: &[f64]) -> Option<f64> {
+        Some(shape[0])
     }
 
     fn motion(&self, scene: &Scene, shape: &[f64]) -> Option<Motion> {

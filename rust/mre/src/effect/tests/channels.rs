@@ -54,6 +54,25 @@ fn a_delay_of_samples_is_a_shift() {
 }
 
 #[test]
+fn a_force_that_is_held_before_is_delayed_from_its_first_value() {
+    let stage = Stage::sine(2.0, 1.0, 2.0);
+    let scene = stage.scene();
+    let last = scene.force.len() - 1;
+    let [shifted, held] = ["pure delay", "pure delay, held before"].map(|name| law("time_delay", name));
+    for (shape, held_at) in [(0.0035, 0..4), (-0.0035, last - 3..last + 1)] {
+        let [shifted, held] = [shifted, held].map(|law| law.through(&scene, &[shape], scene.force).unwrap());
+        for i in 0..=last {
+            let wanted = match (held_at.contains(&i), shape > 0.0) {
+                (true, true) => scene.force[0],
+                (true, false) => scene.force[last],
+                (false, _) => shifted[i],
+            };
+            assert!((held[i] - wanted).abs() < 1e-12, "{shape} {i}");
+        }
+    }
+}
+
+#[test]
 fn a_lagged_displacement_channel_is_undone() {
     // x_device = sin; the channel shows its first-order lag, whose derivative restores it.
     let stage = Stage::sine(1.0, 1.0, 2.0);

@@ -1,0 +1,55 @@
+"""Recordings that start in motion: what is unknown of their initial states is no noise."""
+
+import mre_core
+import numpy as np
+import pytest
+from mre_core import Recording
+
+K_M, TAU = 1.4, 0.065
+NOISE = 0.27
+
+
+def steady(frequency: float, amplitude: float, rate: float, seed: int) -> Recording:
+    """Kelvin-Voigt and a Maxwell branch about an offset; the branch is at rest where the recording starts."""
+    time = np.arange(round(3 / frequency * rate)) / rate
+    w = 2 * np.pi * frequency
+    x = amplitude * np.sin(w * time + seed) - 1.2
+    v = amplitude * w * np.cos(w * time + seed)
+    # The branch in closed form: its steady part, and the decay that makes it zero at the start.
+    across, along = 1 / (1 + (w * TAU) ** 2), w * TAU / (1 + (w * TAU) ** 2)
+    phase = w * time + seed
+    branch = amplitude * w * TAU * (across * np.cos(phase) + along * np.sin(phase))
+    branch -= branch[0] * np.exp(-time / TAU)
+    force = 0.4 * v + 20 * x + 0.8 + K_M * branch
+    force += NOISE * np.random.default_rng(seed).normal(size=len(time))
+    return Recording(time, x, force, velocity=v, name=f"{amplitude:g}mm_{frequency:g}Hz")
+
+
+@pytest.fixture(scope="module")
+def found() -> mre_core.Diagnosis:
+    frequencies = ((0.7, 64.0), (2.3, 128.0), (4.6, 256.0))
+    recordings = [
+        steady(frequency, amplitude, rate, 10 * i + k)
+        for i, amplitude in enumerate((0.7, 1.5, 2.9))
+        for k, (frequency, rate) in enumerate(frequencies)
+    ]
+    return mre_core.diagnose(recordings, "kelvin_voigt", seed=1)
+
+
+def test_the_noise_is_that_of_the_samples_a_fit_has_seen(found: mre_core.Diagnosis) -> None:
+    assert found.fit.noise_rms == pytest.approx(NOISE, rel=0.1)
+    assert found.fit.held_out_rms_after == pytest.approx(NOISE, rel=0.15)
+    assert found.fit.train_rms_after == pytest.approx(NOISE, rel=0.15)
+
+
+def test_the_branch_is_found(found: mre_core.Diagnosis) -> None:
+    assert [effect.id for effect in found.effects] == ["maxwell_relaxation"]
+    assert found.effects[0].parameters["tau"].value == pytest.approx(TAU, rel=0.1)
+
+
+def test_parameters_of_the_base_have_intervals(found: mre_core.Diagnosis) -> None:
+    (level,) = found.model.levels
+    low, high = level.intervals["k0"]
+    assert low < level.parameters["k0"] < high
+    assert low < 20 < high
+    assert high - low < 1.0
