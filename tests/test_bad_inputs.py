@@ -1,6 +1,8 @@
 """The table of bad inputs: one clear line, the right status or exception, and nothing left behind."""
 
 import os
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -53,6 +55,36 @@ def test_a_device_is_not_replaced(cli: Cli, tmp_path: Path, monkeypatch: pytest.
     assert (status, out) == (2, "")
     assert "pipe: is no regular file" in err
     assert (tmp_path / "pipe").is_fifo()
+
+
+def test_a_pipe_is_not_waited_for(cli: Cli, tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "a.csv")
+    status, out, err = cli("inspect", tmp_path / "a.csv")
+    assert (status, out) == (2, "")
+    assert "a.csv: is no regular file" in err
+
+
+def test_a_link_to_itself(cli: Cli, tmp_path: Path) -> None:
+    (tmp_path / "a.csv").symlink_to("a.csv")
+    status, out, err = cli("inspect", tmp_path / "a.csv")
+    assert (status, out, err.count("\n")) == (2, "", 1)
+    assert "a.csv: cannot be read: Too many levels of symbolic links" in err
+
+
+def test_the_surroundings_stop_no_command(tmp_path: Path) -> None:
+    (tmp_path / "\u00fc.csv").write_bytes(instead(1, HEADER))
+    (tmp_path / "matplotlibrc").write_text("text.usetex: True\nnobody: knows\n")
+    given = ["identify", "\u00fc.csv", "--model", "kelvin_voigt", "--seed", "1", "--out", "new"]
+    run = subprocess.run(
+        [sys.executable, "-m", "mre_core", *given],
+        env=os.environ | {"MPLBACKEND": "nonsense", "PYTHONIOENCODING": "ascii"},
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+    assert (run.returncode, run.stderr) == (0, "")
+    assert list((tmp_path / "new").glob("*.png"))
 
 
 def test_a_null_byte_in_a_name(cli: Cli, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -6,7 +6,10 @@ from typing import Any
 import mre_core
 import numpy as np
 import pandas as pd
+import pyarrow as pa
 import pytest
+
+masked: Any = np.ma.MaskedArray
 
 N = 16
 TIME = 0.5 * np.arange(N)
@@ -155,3 +158,17 @@ def test_only_conditions_are_accepted_as_such() -> None:
         mre_core.InputError, match="'humidity' is no condition of a recording, wanted current or"
     ):
         mre_core.from_dataframe(frame(), humidity=0.3)
+
+
+def test_a_table_of_arrow() -> None:
+    table = pa.Table.from_pandas(frame())
+    for one in (table, table.to_batches()[0]):
+        made = mre_core.from_dataframe(one)
+        np.testing.assert_array_equal(made.time, TIME)
+        np.testing.assert_array_equal(made.force, FORCE)
+
+
+def test_a_mask_that_hides_nothing() -> None:
+    columns = {"time_s": TIME, "displacement_mm": DISP, "force_N": FORCE}
+    made = mre_core.from_dataframe(OtherFrame({name: masked(one) for name, one in columns.items()}))
+    np.testing.assert_array_equal(made.force, FORCE)

@@ -207,7 +207,7 @@ def test_bounds_are_any_mapping_of_pairs(pair: ArrayLike) -> None:
 @pytest.mark.parametrize(
     ("bounds", "said"),
     [
-        ({"c0": (0, 1, 2)}, "bounds of c0 is (0, 1, 2)"),
+        ({"c0": (0, 1, 2)}, "number of bounds of c0 is 3"),
         ({"c0": (None, 1)}, "bounds of c0 is (None, 1)"),
         ([(0, 1)], "bounds is [(0, 1)]"),
         ({3: (0, 1)}, "a name of bounds is 3"),

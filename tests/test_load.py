@@ -141,6 +141,7 @@ def test_round_trip(
     n = 20
     values = {role: rng.uniform(-1, 1, n) * 10.0 ** rng.integers(-3, 4) for role in UNITS}
     values["Time"] = np.cumsum(rng.uniform(0.1, 1, n))
+    values["Temperature"] = np.abs(values["Temperature"])  # above absolute zero in any unit
     quote = '"' if quoted else ""
     text = [",".join(f"{quote}{role} [{unit[role][0]}]{quote}" for role in UNITS)]
     for row in zip(*values.values(), strict=True):

@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 from mre_core import InputError, MreError, Problem, Recording
 from mre_core.cli.demo import _identify_all
+from mre_core.crew import Crew
 from mre_core.replica import CAMPAIGN
 from mre_core.study import Claim, Effort, Section, Study, Table, page, study
 from mre_core.study.campaign import as_campaign, replica
 from mre_core.study.classical_search import classical_pso
-from mre_core.study.crew import Crew
 from mre_core.study.swarm_runs import (
     best_known,
     curve_by_evaluations,

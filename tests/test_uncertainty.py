@@ -281,3 +281,33 @@ def test_wrong_parameters(sinh_4mm: Recording) -> None:
         mre_core.uncertainty(problem, np.ones((2, 5)))
     with pytest.raises(mre_core.MreError, match="beta is NaN: a finite number"):
         mre_core.uncertainty(problem, [1.0, 1.0, 1.0, np.nan, 0.0])
+
+
+def test_a_stiff_device_has_a_steady_cycle() -> None:
+    truth = BOUC_WEN | {"rho": 1e4, "n": 2.0}
+    recording = noisy("bouc_wen", truth, motion(2.0, rate=20_000.0, cycles=2), rms=1.0, memory=0.0, seed=1)
+    problem = Problem(recording, "bouc_wen", {"rho": (1e3, 1e5)})
+    x = [truth[name] for name in problem.names]
+    found = by_name(mre_core.uncertainty(problem, x))
+    # Nearly a slider beside a spring: kx + kw / amplitude.
+    stiffness = truth["kx"] + truth["kw"] / 2.0
+    assert found["effective stiffness"].value == pytest.approx(stiffness, rel=1e-3)
+    assert all(np.isfinite([e.value, e.standard_error or 0.0]).all() for e in found.values())
+    again = mre_core.bootstrap(problem, x, 2, seed=1)
+    assert np.isfinite(again.replicates).all()
+    assert list(again.intervals) == list(found)
+
+
+def test_an_interval_wider_than_the_whole_force_is_none() -> None:
+    moved = motion(2.0, rate=50.0)
+    time = np.asarray(moved.time)
+    rng = np.random.default_rng(0)
+    force = 5.0 + rng.normal(0.0, 1e-3, len(time))  # of no device
+    recording = Recording(time, moved.displacement, force)
+    found = by_name(mre_core.identify(recording, "bouc_wen", seed=1).result.uncertainty or pytest.fail())
+    loose = found["kx + kw rho"]
+    assert (loose.low, loose.high, loose.interval) == (None, None, "not determined")
+    firm = found["effective stiffness"]  # about zero, and that means something
+    assert firm.low is not None
+    assert firm.high is not None
+    assert firm.high - firm.low < 1e-2

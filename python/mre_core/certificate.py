@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 from . import _core
 from ._core import Problem
+from .errors import shown
 
 if TYPE_CHECKING:
     from .results import SwarmResult
@@ -62,5 +63,9 @@ def certificate(
         No certificate exists for the model (`bouc_wen`) or for its changing current, or the tolerance is
         not allowed (a ValueError).
     """
+    from .results import SwarmResult  # which holds a Certificate
+
+    if not isinstance(result, SwarmResult):
+        raise TypeError(f"result is {shown(result)}: wanted the SwarmResult of an optimizer")
     lower, gap, certified, evaluations = _core.certify(problem, result.x, tolerance, threads=threads)
     return Certificate(tolerance, lower, gap, certified, evaluations)

@@ -4,7 +4,7 @@ import re
 from collections.abc import Collection, Mapping, Sequence
 from typing import Final, NamedTuple
 
-from .errors import InputError, listed
+from .errors import InputError, listed, mapping, shown
 from .units import IDENTITY, ROLES, Conversion, conversion, find_conversion, measured_by
 
 ALIASES: Final[dict[str, str]] = {
@@ -34,7 +34,9 @@ CANONICAL: Final[dict[str, str]] = {
     "simulated": "simulated_force_N",
 }
 
-_BRACKETS: Final = re.compile(r"(.*?)\s*(?:\[([^\[\]]*)\]|[(（]([^()（）]*)[)）])\s*", re.DOTALL)
+_LONGEST_HEADER: Final = 200
+"""Characters of a header that is looked into."""
+_BRACKETS: Final = (("[", "]"), ("(（", ")）"))
 
 
 class Column(NamedTuple):
@@ -81,7 +83,7 @@ def find_columns(
         A role is missing, ambiguous or unknown, a mapped column does not exist, or a unit is wrong.
     """
     found: dict[str, Column] = {}
-    for role, text in (map or {}).items():
+    for role, text in mapping("map", map, "role to column").items():
         if role not in ROLES:
             raise InputError(f"map names the role '{role}'", file=file, value=role, wanted=", ".join(ROLES))
         if role not in fixed:
@@ -142,13 +144,21 @@ def assumption(columns: Collection[Column], file: str | None = None) -> str | No
 
 def split_unit(header: str) -> tuple[str, str | None]:
     """Split a header such as ``Force [kN]`` into name and unit."""
-    if match := _BRACKETS.fullmatch(header):
-        return match[1], (match[2] if match[2] is not None else match[3]).strip() or None
-    return header, None
+    text = header.rstrip()
+    pair = next((pair for pair in _BRACKETS if text.endswith(tuple(pair[1]))), None)
+    if pair is None:
+        return header, None
+    opening = max(text.rfind(sign) for sign in pair[0])
+    unit = text[opening + 1 : -1]
+    if opening < 0 or any(sign in unit for sign in pair[1]):
+        return header, None
+    return text[:opening].rstrip(), unit.strip() or None
 
 
 def suffixes(header: str) -> list[tuple[str, str]]:
     """Every split of a header in front of a word, longest ending first: ``vel``, ``m_s`` or ``F / kN``."""
+    if len(header) > _LONGEST_HEADER:
+        return [("", header)]
     gaps = re.finditer(r"\s*[/,]\s*|[_\s]+", header)
     return [("", header), *((header[: gap.start()], header[gap.end() :]) for gap in gaps)]
 
@@ -184,11 +194,11 @@ def recognise(header: str) -> tuple[str, str | None] | None:
 def _mapped(role: str, text: str, headers: Sequence[str], file: str | None) -> Column:
     """Resolve ``column``, ``column[unit]`` or ``-column``; the whole text is tried as a column first."""
     if not isinstance(text, str) or not text.strip():
-        problem = f"map gives {text!r} for {role}"
+        problem = f"map gives {shown(text)} for {role}"
         raise InputError(problem, file=file, value=text, wanted="the name of a column")
     if text in headers:
         return _read_unit(role, text, file)
-    if text.startswith("-"):
+    if text.startswith("-") and (text[1:] in headers or text[1:2] != "-"):
         column = _mapped(role, text[1:], headers, file)
         factor, offset = column.conversion
         return column._replace(conversion=Conversion(-factor, -offset))

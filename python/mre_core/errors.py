@@ -1,5 +1,6 @@
 """Errors and warnings about what a user hands in: one line each."""
 
+from collections.abc import Mapping
 from typing import Any
 from unicodedata import category
 
@@ -7,6 +8,7 @@ from ._core import MreError
 
 __all__ = ["ExtrapolationWarning", "InputError", "MreError", "SkippedWarning", "UnitAssumedWarning"]
 
+_LONGEST = 2000
 _LONGEST_VALUE = 60
 _UNSEEN = ("Cc", "Cf", "Cs", "Co", "Cn")
 """Unicode categories: control, format, surrogate, private, not assigned."""
@@ -85,10 +87,42 @@ def one_line(text: str) -> str:
     Returns
     -------
     str
-        The text in one line, with a question mark for every control character and turned direction.
+        The text in one line, with a question mark for every control character and turned direction;
+        what is longer than 2,000 characters loses its middle.
     """
     joined = " ".join(text.splitlines())
+    if len(joined) > _LONGEST:
+        joined = f"{joined[: _LONGEST // 2]} ... {joined[-_LONGEST // 2 :]}"
     return "".join("?" if category(char) in _UNSEEN else char for char in joined)
+
+
+def mapping(what: str, value: Any, of: str) -> Mapping[Any, Any]:
+    """Take an argument that has to be a mapping.
+
+    Parameters
+    ----------
+    what : str
+        Name of the argument, for the message.
+    value : mapping or None
+        The argument; None stands for an empty one.
+    of : str
+        What is wanted, such as ``role to column``.
+
+    Returns
+    -------
+    mapping
+        The argument.
+
+    Raises
+    ------
+    TypeError
+        It is something else.
+    """
+    if value is None:
+        return {}
+    if not isinstance(value, Mapping):
+        raise TypeError(f"{what} is {shown(value)}: wanted a mapping of {of}")
+    return value
 
 
 def shown(value: object) -> str:

@@ -18,7 +18,7 @@ def frame_headers(df: Any, source: str | None) -> dict[str, Any]:
     Parameters
     ----------
     df : object
-        Anything with ``columns``.
+        Anything with ``columns``, or with ``column_names``.
     source : str or None
         Source of the frame, for messages.
 
@@ -32,7 +32,8 @@ def frame_headers(df: Any, source: str | None) -> dict[str, Any]:
     InputError
         There are no columns, or two of the same name.
     """
-    columns = getattr(df, "columns", None)
+    # A table of pyarrow has its columns themselves under the other name.
+    columns = getattr(df, "column_names", getattr(df, "columns", None))
     if columns is None or callable(columns):
         raise InputError(f"found a {type(df).__name__}", file=source, value=df, wanted="a data frame")
     labels = list(columns)
@@ -79,6 +80,15 @@ def frame_numbers(series: Any, column: str, source: str | None, first: int = 0) 
     if array.ndim != 1:
         raise InputError(
             f"found {array.ndim} dimensions", file=source, column=column, wanted="one number in every row"
+        )
+    hidden = np.ma.getmaskarray(series).ravel() if isinstance(series, np.ma.MaskedArray) else np.zeros(0)
+    if hidden.any():
+        raise InputError(
+            "found a masked value",
+            file=source,
+            row=first + int(hidden.argmax()),
+            column=column,
+            wanted="a finite number",
         )
     if array.dtype.kind in "iuf":
         values = np.ascontiguousarray(array, dtype=np.float64)

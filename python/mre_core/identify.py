@@ -8,13 +8,14 @@ import numpy as np
 
 from ._core import Problem, Recording, check_certifiable, parameters
 from .certificate import certificate
-from .errors import InputError, MreError
+from .errors import InputError, MreError, shown
 from .fits import exact, hybrid
 from .grouping import check_once, each_of, group_by_current
 from .measure import Fit, measure_fit
 from .minimise import draw_seed
 from .model import Level, Model
 from .results import StopReason, SwarmResult
+from .suitable import check_force
 from .swarms import afsa, mafsa, pso
 from .tested import largest_motion
 from .uncertainty import Bootstrap, Profile, Uncertainty, bootstrap, profile, uncertainty
@@ -132,13 +133,13 @@ def identify(
         The recordings, the model, a bound or an option cannot be used (a ValueError).
     """
     if optimizer not in OPTIMIZERS:
-        raise InputError(f"optimizer is {optimizer!r}", wanted=f"one of {', '.join(OPTIMIZERS)}")
+        raise InputError(f"optimizer is {shown(optimizer)}", wanted=f"one of {', '.join(OPTIMIZERS)}")
     name = model.name if isinstance(model, Model) else model
     everything = list(each_of(recordings))
     groups = group_by_current(everything)
     check_once(everything)
     for recording in everything:
-        _check_force(recording)
+        check_force(recording)
     shares = _shares(weights, everything, [members for _, members in groups])
     problems = [
         Problem(members, name, bounds, weights=share)
@@ -169,21 +170,12 @@ def identify(
     return Identification(found, tuple(runs), fits, optimizer, seed, tuple(problems[: len(runs)]))
 
 
-def _check_force(recording: Recording) -> None:
-    """Refuse a channel that shows nothing: its errors have no measure."""
-    force = recording.force
-    # A force of zero is refused by every problem.
-    if force is not None and force.any() and np.ptp(force[slice(*recording.scored)]) == 0:
-        raise InputError(
-            f"recording '{recording.name}': the force is {force[0]:g} N throughout",
-            wanted="a force that changes with the motion",
-        )
-
-
 def _shares(weights: Any, recordings: list[Recording], groups: Sequence[list[Recording]]) -> list[Any]:
     """Give every group its own of the weights, which are in the order of the recordings."""
     if weights is None or isinstance(weights, str) or len(groups) == 1:
         return [weights] * len(groups)
+    if np.ma.is_masked(weights):
+        raise InputError("weights are masked", wanted=f"{len(recordings)} numbers, one a recording")
     given = np.atleast_1d(weights)
     if len(given) != len(recordings):
         raise InputError(f"weights is {len(given)} numbers", wanted=f"{len(recordings)}, one a recording")

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._core import Problem, Swarm
-from .errors import InputError
+from .errors import InputError, shown
 from .results import StopReason, SwarmResult, collect
 
 Function = Callable[[NDArray[np.float64]], ArrayLike]
@@ -52,7 +52,7 @@ def draw_seed(seed: int | None) -> int:
     if seed is None:
         return secrets.randbelow(2**31)
     if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or not 0 <= seed < 2**64:
-        raise InputError(f"seed is {seed!r}", wanted="a whole number from 0 to 2^64 - 1")
+        raise InputError(f"seed is {shown(seed)}", wanted="a whole number from 0 to 2^64 - 1")
     return int(seed)
 
 
@@ -70,6 +70,8 @@ def read_box(bounds: Bounds | None) -> Box:
     named = isinstance(bounds, Mapping)
     pairs = list(bounds.values()) if isinstance(bounds, Mapping) else list(bounds)
     names = [str(name) for name in bounds] if named else [f"x[{i}]" for i in range(len(pairs))]
+    if any(np.ma.is_masked(pair) for pair in pairs):
+        raise InputError("bounds are masked", wanted="a pair (lower, upper) for each parameter")
     try:
         box = np.array(pairs, dtype=np.float64).reshape(len(pairs), 2)
     except (TypeError, ValueError):

@@ -16,7 +16,7 @@ from ._core import Recording
 from .current_laws.law import Dependence
 from .current_laws.variable import check_over, series_of
 from .effects import Effect
-from .errors import ExtrapolationWarning, InputError, shown
+from .errors import ExtrapolationWarning, InputError, mapping, shown
 from .output import to_json, write_file
 from .stored import number, read_json
 from .tested import MOTION, beyond_tested
@@ -69,6 +69,8 @@ class Model:
         if not self.levels:
             raise InputError("the model has no levels", wanted="at least one level of parameters")
         for level in self.levels:
+            if not isinstance(level, Level):
+                raise TypeError(f"levels hold {shown(level)}: wanted a Level")
             if level.current is not None:
                 number(level.current, "current of a level")
             if sorted(level.parameters) != sorted(known):
@@ -77,11 +79,11 @@ class Model:
                 )
             for name, value in level.parameters.items():
                 number(value, name)
-        for name, largest in self.tested.items():
+        for name, largest in mapping("tested", self.tested, "name to number").items():
             number(largest, f"tested {name}", least=0.0 if name in MOTION else -math.inf)
         for effect in self.effects:
             if not isinstance(effect, Effect):
-                raise TypeError(f"effects hold {effect!r}: wanted an Effect")
+                raise TypeError(f"effects hold {shown(effect)}: wanted an Effect")
         if self.effects and not self.sizes:
             raise InputError(
                 "the model has effects and no sizes", wanted="sizes of the recordings behind them"

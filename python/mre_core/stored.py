@@ -32,19 +32,31 @@ def read_json(path: str | os.PathLike[str]) -> Any:
         It is missing, not readable, too large, or no JSON.
     """
     file = str(path)
+    content = read_limited(path, LARGEST_FILE)
     try:
-        size = Path(path).stat().st_size
-        if size > LARGEST_FILE:
-            raise InputError(f"has {size} bytes", file=file, wanted=f"at most {LARGEST_FILE} bytes")
-        return json.loads(Path(path).read_bytes())
-    except OSError as error:
-        raise InputError(f"cannot be read: {error.strerror}", file=file) from None
+        return json.loads(content)
     except RecursionError:
         raise InputError("is not JSON: it is nested too deeply", file=file) from None
-    except InputError:
-        raise
     except ValueError as error:
         raise InputError(f"is not JSON: {error}", file=file) from None
+
+
+def read_limited(path: str | os.PathLike[str], most: int) -> bytes:
+    """Read a whole file that has at most so many bytes, whatever its folder says of its size.
+
+    Raises
+    ------
+    InputError
+        It is missing, not readable, or has more.
+    """
+    try:
+        with Path(path).open("rb") as stream:
+            content = stream.read(most + 1)
+    except OSError as error:
+        raise InputError(f"cannot be read: {error.strerror}", file=str(path)) from None
+    if len(content) > most:
+        raise InputError(f"has more than {most} bytes", file=str(path), wanted="a smaller file")
+    return content
 
 
 def number(value: object, name: str, *, least: float = -math.inf) -> float:

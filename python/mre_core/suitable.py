@@ -1,4 +1,4 @@
-"""Are recordings fit for a diagnosis? What is wrong is said, not guessed."""
+"""Are recordings fit for an identification or a diagnosis? What is wrong is said, not guessed."""
 
 from collections.abc import Sequence
 
@@ -42,8 +42,6 @@ def check_recordings(recordings: Sequence[Recording], parameters: int) -> None:
     energies = []
     for recording in recordings:
         x, force = _scored(recording)
-        if np.ptp(force) == 0:
-            raise _wrong(recording, f"the force is {force[0]:.6g} N throughout", "a force that changes")
         if np.mean(np.diff(x) ** 2) > _JUMPS * np.var(x):
             raise _wrong(recording, "the displacement jumps like noise from sample to sample", "a motion")
         against = float(np.corrcoef(x, force)[0, 1])
@@ -59,7 +57,8 @@ def check_recordings(recordings: Sequence[Recording], parameters: int) -> None:
             recordings[int(np.argmin(energies))],
             f"the device would give out energy in every cycle (force and velocity correlate by"
             f" {min(energies):.2f})",
-            "force and displacement in their own columns, not swapped, with agreeing signs and times",
+            "force and displacement in their own columns, not swapped, with agreeing signs, and no time lag"
+            " of one channel behind the other",
         )
     if not any(_has_cycle(_scored(recording)[0]) for recording in recordings):
         raise _wrong(recordings[0], "there is less than one cycle of motion", "at least one full cycle")
@@ -69,12 +68,27 @@ def check_recordings(recordings: Sequence[Recording], parameters: int) -> None:
         raise _wrong(recordings[0], problem, f"at least {least}")
 
 
-def _scored(recording: Recording) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Displacement and force over the samples that count."""
+def check_force(recording: Recording) -> NDArray[np.float64]:
+    """Force over the samples that count, shape (n,), N.
+
+    Raises
+    ------
+    InputError
+        There is none, or one that never changes: its errors have no measure.
+    """
     if recording.force is None:
         raise _wrong(recording, "there is no force", "a measured force")
-    scored = slice(*recording.scored)
-    return recording.displacement[scored], recording.force[scored]
+    force = recording.force[slice(*recording.scored)]
+    if np.ptp(force) == 0:
+        raise _wrong(
+            recording, f"the force is {force[0]:.6g} N throughout", "a force that changes with the motion"
+        )
+    return force
+
+
+def _scored(recording: Recording) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Displacement and force over the samples that count."""
+    return recording.displacement[slice(*recording.scored)], check_force(recording)
 
 
 def _energy(x: NDArray[np.float64], force: NDArray[np.float64]) -> float:

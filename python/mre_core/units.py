@@ -174,10 +174,10 @@ def _registry() -> "pint.UnitRegistry[Any]":
 
 def _parse(text: str) -> "pint.Unit | None":
     """Read a product of powers of known units; a scale, a number or any other name gives None."""
-    text = re.sub(r"\s*([*/])\s*", r"\1", text.translate(_PLAIN_TEXT).replace("**", "^"))
-    pieces = re.split(r"([*/. ])", text)
     if not text or len(text) > _LONGEST_UNIT:
         return None
+    text = re.sub(r"\s*([*/])\s*", r"\1", text.translate(_PLAIN_TEXT).replace("**", "^"))
+    pieces = re.split(r"([*/. ])", text)
     expression = ""
     for i, piece in enumerate(pieces):
         if i % 2:

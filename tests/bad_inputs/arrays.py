@@ -52,8 +52,8 @@ ARRAYS = {
     "a force of denormal numbers": Call(
         partial(fitted, force=FORCE * 1e-310), ["the force is at most", "e-309 N", "below 1e-30 N"]
     ),
-    "no force at all": Call(partial(fitted, force=FORCE * 0), ["the force is zero throughout"]),
-    "a force is missing": Call(partial(fitted, force=None), ["no force: an identification needs one"]),
+    "no force at all": Call(partial(fitted, force=FORCE * 0), ["the force is 0 N throughout"]),
+    "a force is missing": Call(partial(fitted, force=None), ["there is no force", "a measured force"]),
     "one sample": bad(["1 samples: at least 8"], time=[0.0], displacement=[1.0], force=[1.0]),
     "no sample": bad(["0 samples: at least 8"], time=[], displacement=[], force=[]),
     "other lengths": bad(["force has 199 samples, but time has 200"], force=FORCE[:-1]),
@@ -83,6 +83,12 @@ ARRAYS = {
     "a current that is a word": bad(["current is str"], current="high"),
     "a current of another length": bad(["current has 5 samples, but time has 200"], current=TIME[:5]),
     "a temperature of 1e300": bad(["temperature is 1e300", "within 1e30"], temperature=1e300),
+    "a temperature below absolute zero": bad(
+        ["temperature is -300 degC", "at least -273.15 degC"], temperature=-300.0
+    ),
+    "one sample below absolute zero": bad(
+        ["temperature is -274 degC at sample 7"], temperature=put(TIME, -274.0)
+    ),
     "a name that is no text": Call(partial(recording, name=3), ["'int' object", "'str'", "name"], TypeError),
     "a part that is not there": Call(
         lambda: recording(name="r").cut(5, 6), ["recording 'r': cut is 5 s to 6 s", "0 s to 1.99 s"]

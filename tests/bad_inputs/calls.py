@@ -18,6 +18,7 @@ mre_core: Any = package
 Effect, Level, Model, Problem = mre_core.Effect, mre_core.Level, mre_core.Model, mre_core.Problem
 
 GOOD = recording(name="r")
+MASKED: Any = np.ma.MaskedArray([0.0, 1.0], mask=[True, False])
 SQUARE = [(-1.0, 1.0)]
 
 
@@ -79,6 +80,8 @@ CALLED = {
     "function: no bounds": function(cost, ["bounds are missing", "(lower, upper)"], None),
     "function: bounds reversed": function(cost, ["x[0]", "1"], [(1, 0)]),
     "function: bounds of NaN": function(cost, ["x[0]", "NaN"], [(0, np.nan)]),
+    "function: bounds of 1e308": function(cost, ["x[0]", "1e308", "1e100"], [(0, 1e308)]),
+    "function: bounds with a mask": function(cost, ["bounds are masked"], [MASKED]),
     "function: bounds of words": function(cost, ["bounds cannot be read"], [("a", "b")]),
     "function: three costs for fifty": function(lambda p: p[:3, 0], ["returned 3 costs", "wanted 50"]),
     "function: no costs": function(lambda p: None, ["value of the function is NoneType"]),
@@ -90,6 +93,11 @@ CALLED = {
     "problem: no such model": Call(lambda: Problem(GOOD, "cinh"), ["'cinh'", "sinh"]),
     "problem: bounds of nobody": problem(["'x'", "beta"], bounds={"x": (0, 1)}),
     "problem: bounds of NaN": problem(["beta", "NaN", "finite"], bounds={"beta": (np.nan, 1)}),
+    "problem: bounds of 1e308": problem(["F0", "-1e308:1e308", "1e100"], bounds={"F0": (-1e308, 1e308)}),
+    "problem: a bound without the other": problem(
+        ["number of bounds of c0 is 1", "two"], bounds={"c0": (1.0,)}
+    ),
+    "problem: bounds with a mask": problem(["bounds of c0 is masked_array"], bounds={"c0": MASKED}),
     "problem: weights of nobody": problem(["weights is 'x'", "'samples'"], weights="x"),
     "problem: another number of weights": problem(["weights", "1"], weights=[1.0, 2.0]),
     "problem: weights below zero": problem(["weight", "-1"], weights=[-1.0]),
@@ -144,6 +152,10 @@ CALLED = {
     "model: a current that is NaN": Call(
         lambda: Model("sinh", (Level(np.nan, SINH),)), ["current of a level is nan", "finite"]
     ),
+    "model: a number for a level": typed(lambda: Model("sinh", (3,)), "levels hold 3", "a Level"),
+    "model: a text for what was tested": typed(
+        lambda: Model("sinh", (Level(0.0, SINH),), "far"), "tested is 'far'", "a mapping"
+    ),
     "model: a parameter that is a word": Call(
         lambda: Model("sinh", (Level(0.0, level(c0="a")),)), ["c0 is 'a'", "a finite number"]
     ),
@@ -163,6 +175,24 @@ CALLED = {
     ),
     "load: a name with a null byte": Call(
         lambda: mre_core.load("a\0.csv"), ["a?.csv: its name is no text"], InputError
+    ),
+    "uncertainty: a force that cannot be computed": Call(
+        lambda: mre_core.uncertainty(Problem(GOOD, "bouc_wen"), [1.0, 1.0, 1.0, 1e9, 0.5, 2.0, 0.0]),
+        ["recording 'r': the force of bouc_wen cannot be computed", "for these parameters"],
+    ),
+    "certificate: an array for a result": typed(
+        lambda: mre_core.certificate(Problem(GOOD, "sinh"), np.zeros(5)), "result is [0.", "the SwarmResult"
+    ),
+    "inertia_weight: below zero": Call(lambda: mre_core.inertia_weight(-1, 9, 1), ["iteration is -1", "0"]),
+    "inertia_weight: of no iterations": Call(
+        lambda: mre_core.inertia_weight(0, 0, 1), ["iterations is 0", "from 1"]
+    ),
+    "fit_laws: a bound without the other": Call(
+        lambda: mre_core.fit_laws([recording(current=1.0), recording(current=2.0)], bounds={"c0": (1,)}),
+        ["bounds of c0 are (1,)", "(lower, upper)"],
+    ),
+    "fit_laws: laws that are a text": typed(
+        lambda: mre_core.fit_laws(recording(current=1.0), laws="linear"), "laws is 'linear'", "a mapping"
     ),
     "load: a number": typed(lambda: mre_core.load(3), "PathLike", "int"),
     "read_chunks: no file": Call(lambda: list(mre_core.read_chunks("no.csv")), ["no.csv"], InputError),

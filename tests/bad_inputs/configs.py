@@ -7,6 +7,19 @@ CONFIGS = {
     "a null byte": config(b"fish = 3\0", "is not TOML"),
     "half a character": config(b"a = '\xed\xa0\x80'", "is not TOML"),
     "nested a thousand times": config("a = " + "[" * 5000, "is not TOML"),
+    "a key of 100,000 parts": config("a" + ".a" * 100_000 + " = 1", "is not TOML", "nested too deeply"),
+    "a table of 50,000 parts": config("[a" + ".a" * 50_000 + "]", "is not TOML", "nested too deeply"),
+    "a seed of 5,000 digits": config("seed = " + "9" * 5000, "is not TOML", "4300 digits"),
+    "ten million bytes": config(b"#" * 10_000_001, "has more than 10000000 bytes", "a smaller file"),
+    "a device for a config": option("/dev/zero: has more than", given=["--config", "/dev/zero"]),
+    "a folder without a name": option(
+        "--out is empty", given=["--config", "c.toml"], files={"c.toml": b"[identify]\nout = ''"}
+    ),
+    "a map of 100,000 signs": option(
+        "map names the column '-",
+        given=["--config", "c.toml"],
+        files={"c.toml": b"map.force = '" + b"-" * 100_000 + b"'"},
+    ),
     "a key twice": config("fish = 3\nfish = 4", "is not TOML"),
     "a table of no command": config("[identfy]\nfish = 3", "unknown key 'identfy'", "nearest: identify"),
     "a table of a table": config("a.b.c.d = 1", "unknown key 'a'"),

@@ -32,10 +32,16 @@ FILES = {
     ),
     "no force at all": Command(
         IDENTIFY,
-        ["recording 'a'", "force is zero throughout"],
+        ["recording 'a'", "the force is 0 N throughout", "changes with the motion"],
         {"a.csv": "\n".join([HEADER, *(f"{t},{np.sin(t)},0" for t in T)]).encode()},
     ),
     "a folder": Command(["identify", "/proc", *IDENTIFY[2:]], ["/proc: is a folder without recordings"]),
+    "a device": Command(
+        ["identify", "/dev/zero", *IDENTIFY[2:]], ["/dev/zero: is no regular file", "a file"]
+    ),
+    "too many columns": bad_file(
+        headed(",".join(f"c{i}" for i in range(1001))), "line 1: has 1001 columns", "at most 1000"
+    ),
     "missing file": Command(["identify", "b.csv", *IDENTIFY[2:]], ["b.csv: there is no such file"]),
     "second file": Command(
         ["identify", "a.csv", "b.csv", *IDENTIFY[2:]],

@@ -2,10 +2,11 @@
 
 from collections.abc import Mapping
 from functools import partial
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import pandas as pd
+import pyarrow as pa
 from mre_core import InputError, from_dataframe
 
 from .arrays import FORCE, TIME, X
@@ -29,6 +30,14 @@ def given(df: Any, says: list[str], **options: Any) -> Call:
 def one(value: object, at: int = 5) -> list[object]:
     """The forces with another value in one row."""
     return [value if row == at else float(force) for row, force in enumerate(FORCE)]
+
+
+class Columns(dict[str, Any]):
+    """A frame of one's own."""
+
+    def __init__(self, **other: Any) -> None:
+        super().__init__({**COLUMNS, **other})
+        self.columns = list(self)
 
 
 def twice() -> pd.DataFrame:
@@ -58,6 +67,17 @@ FRAMES = {
     "NaN in a row ": bad(["row 5", "found nan"], force_N=one(np.nan)),
     "infinity in a row": bad(["row 5", "found inf"], force_N=one(np.inf)),
     "1e300 in a row": bad(["force is 1e300 at sample 5"], force_N=one(1e300)),
+    "a masked row": Call(
+        lambda: from_dataframe(Columns(force_N=np.ma.MaskedArray(FORCE, mask=TIME == TIME[5]))),
+        ["row 5, column 'force_N': found a masked value", "a finite number"],
+        InputError,
+    ),
+    "nothing in a row of Arrow": given(
+        pa.table({**COLUMNS, "force_N": one(None)}), ["row 5, column 'force_N': found nan", "a finite number"]
+    ),
+    "a map that is a text": Call(
+        lambda: from_dataframe(frame(), cast("Any", "force")), ["map is 'force'", "a mapping"], TypeError
+    ),
     "a list in a row": bad(["row 5", "found [1]"], force_N=one([1])),
     "a complex number in a row": bad(["row 0", "found (1+0j)"], force_N=one(1j)),
     "truth values": bad(["row 0, column 'force_N': found", "a finite number"], force_N=FORCE > 0),

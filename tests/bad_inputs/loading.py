@@ -59,6 +59,16 @@ BAD: dict[str, tuple[bytes | list[str], dict[str, object], list[str]]] = {
     "nan": ([HEADER, *GOOD[:3], "0.05,NaN,1"], {}, ["line 5", "found 'NaN', wanted a finite number"]),
     "inf": ([HEADER, *GOOD[:3], "0.05,1,-inf"], {}, ["line 5", "found '-inf', wanted a finite number"]),
     "overflow": ([HEADER, *GOOD[:3], "0.05,1,1e999"], {}, ["found '1e999', wanted a finite number"]),
+    "100,000 digits": (
+        [HEADER, *GOOD[:3], "9" * 100_000 + ",1,1"],
+        {},
+        ["line 5, column 'time_s': found '9999", "wanted a finite number"],
+    ),
+    "50,000 blanks in a header": (
+        [HEADER.replace("force_N", "force" + " " * 50_000 + "N"), *GOOD],
+        {},
+        ["no column for force among time_s"],
+    ),
     "hex": ([HEADER, *GOOD[:3], "0.05,1,0x1p3"], {}, ["found '0x1p3', wanted a number"]),
     "underscore": ([HEADER, *GOOD[:3], "0.05,1,1_0"], {}, ["found '1_0', wanted a number"]),
     "truth": ([HEADER, *GOOD[:3], "0.05,1,True"], {}, ["found 'True', wanted a number"]),

@@ -36,6 +36,8 @@ OPTIONS = {
     "bounds of nothing": option("'gamma'", "c0, k0, alpha, beta, F0", given=["--bounds", "gamma=0:1"]),
     "bounds malformed": option("--bounds beta=0.5", "NAME=LOWER:UPPER", given=["--bounds", "beta=0.5"]),
     "bounds not admissible": option("k0", "-5:5", "within 0", given=["--bounds", "k0=-5:5"]),
+    "bounds of 1e308": option("k0", "0:1e308", "within 1e100", given=["--bounds", "k0=0:1e308"]),
+    "an empty name": option("an argument is empty", "a value", given=["--out", ""]),
     "bounds not finite": option("beta", "0.1:NaN", "finite", given=["--bounds", "beta=0.1:nan"]),
     "set without value": option("--set current", "ROLE=", given=["--set", "current"]),
     "set of nothing": option("'humidity'", "current", given=["--set", "humidity=3"]),

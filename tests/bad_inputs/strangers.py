@@ -89,7 +89,9 @@ STRANGERS = {
         SIMULATE, ["cannot be computed", "for these parameters"], {"model.json": beta("1e4")}
     ),
     "fifty million bytes": Command(
-        SIMULATE, ["model.json: has 50000001 bytes", "at most"], {"model.json": b" " * 50_000_001}
+        SIMULATE,
+        ["model.json: has more than 50000000 bytes", "a smaller file"],
+        {"model.json": b" " * 50_000_001},
     ),
     "something else in JSON": bad_model(json.dumps("sinh").encode(), "not a model"),
 }

@@ -5,6 +5,7 @@ import os
 import warnings
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from os.path import realpath
 from pathlib import Path
 
 from ..errors import InputError, SkippedWarning, listed
@@ -75,7 +76,7 @@ def find_items(folder: str | os.PathLike[str], leave_out: Path | None = None) ->
     items: list[Item] = []
     results: dict[Path, str] = {}
     for entry in entries:
-        if leave_out is not None and entry.resolve() == leave_out.resolve():
+        if leave_out is not None and realpath(entry) == realpath(leave_out):
             continue
         if entry.name in _OWN and (root / JOURNAL).is_file():
             results[entry] = "batch"

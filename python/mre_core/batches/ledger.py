@@ -4,6 +4,7 @@ import hashlib
 import math
 import time
 from collections.abc import Callable, Mapping
+from os.path import realpath
 from pathlib import Path
 from typing import Any
 
@@ -43,7 +44,7 @@ class Ledger:
             elif entry is not None and entry.lasting and entry.digest == item.digest:
                 self._count(name, entry.row)
             else:
-                files = tuple(str(file.resolve()) for file in item.files)
+                files = tuple(realpath(file) for file in item.files)
                 self.left.append(Task(name, files, item.digest, seed, settings, threads))
 
     def keeper(self, on_progress: OnProgress | None) -> Callable[[list[Outcome]], None]:

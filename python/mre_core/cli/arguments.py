@@ -27,10 +27,19 @@ def _keys(option: str) -> Collection[str]:
 
 
 def spread(arguments: Sequence[str]) -> list[str]:
-    """Let ``--map a=b c=d`` stand for ``--map a=b --map c=d``, and ``--recordings`` take several files."""
+    """Let ``--map a=b c=d`` stand for ``--map a=b --map c=d``, and ``--recordings`` take several files.
+
+    Raises
+    ------
+    InputError
+        An argument is empty: as a path it would be the folder at hand.
+    """
     out: list[str] = []
     option = ""
     for argument in arguments:
+        if not argument or (argument.startswith("--") and argument.endswith("=")):
+            what = f"{argument.removesuffix('=')} is empty" if argument else "an argument is empty"
+            raise InputError(what, wanted="a value (a variable of the shell may not be set)")
         role = argument.partition("=")[0]
         if argument.startswith("-"):
             option = argument if argument in (*_PAIRS, *_FILES) else ""

@@ -1,6 +1,5 @@
 """``mre-core demo``."""
 
-import os
 from pathlib import Path
 from typing import Any
 
@@ -53,51 +52,27 @@ def demo(out: Path | None, seed: int, iterations: int, threads: int | None) -> N
 
 def _identify_all(recordings: list[Any], seed: int, iterations: int, threads: int | None) -> Results:
     """Identify every test with every model and swarm, side by side with one thread each."""
-    from concurrent.futures import ThreadPoolExecutor, as_completed
-    from threading import Event
-
+    from ..crew import Crew
     from ..identify import identify
-    from .progress import progress
+    from .progress import counted
 
-    stop = Event()
     jobs = [
         (recording, model, optimizer)
         for recording in recordings
         for model in _MODELS
         for optimizer in _OPTIMIZERS
     ]
+    with counted("identifying", quiet=False) as on_progress:
+        crew = Crew(threads, lambda _, done, count: on_progress(done, count))
 
-    def run(recording: Any, model: str, optimizer: Any) -> Any:
-        return identify(
-            recording,
-            model,
-            optimizer=optimizer,
-            seed=seed,
-            max_iterations=iterations,
-            threads=1,
-            callback=lambda *_: stop.is_set(),
-        )
+        def run(job: tuple[Any, str, Any]) -> Any:
+            recording, model, optimizer = job
+            options = {"max_iterations": iterations, **crew.options}
+            return identify(recording, model, optimizer=optimizer, seed=seed, **options)
 
-    found: Results = {}
-    evaluations = 0
-    with (
-        ThreadPoolExecutor(threads or os.cpu_count()) as pool,
-        progress(len(jobs), quiet=False) as (_, on_progress),
-    ):
-        try:
-            waiting = {pool.submit(run, *job): (job[0].name, *job[1:]) for job in jobs}
-            for future in as_completed(waiting):
-                found[waiting[future]] = future.result()
-                evaluations += future.result().result.nfev
-                on_progress(len(found), evaluations, future.result().result.fitness)
-        except BaseException:
-            stop.set()  # Ctrl-C reaches this thread only; the others ask here
-            pool.shutdown(cancel_futures=True)
-            raise
-    return {
-        (recording.name, model, optimizer): found[recording.name, model, optimizer]
-        for recording, model, optimizer in jobs
-    }
+        found = crew.run("identifying", run, jobs)
+    names = [(recording.name, model, optimizer) for recording, model, optimizer in jobs]
+    return dict(zip(names, found, strict=True))
 
 
 def _print(out: Any, results: Results) -> None:

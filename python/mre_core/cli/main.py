@@ -4,11 +4,13 @@ Exit status: 0 done, 2 input or options wrong, 130 interrupted, 1 anything else.
 """
 
 import errno
+import logging
 import os
 import sys
 import warnings
 from collections.abc import Sequence
 from contextlib import suppress
+from io import TextIOWrapper
 from typing import TextIO
 
 import click
@@ -61,6 +63,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command and return its exit status."""
     given = list(sys.argv[1:] if arguments is None else arguments)
     try:
+        _settle()
         status = _run(given)
         print(end="", flush=True)
         return status
@@ -71,6 +74,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if error.errno not in _FULL:
             return _unforeseen(error)
         return _fail(f"the output cannot be written: {error.strerror}, wanted room for it", 1)
+
+
+def _settle() -> None:
+    """Take from the surroundings what would stop a command after its work."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):  # one that knows few letters shows a question mark
+            stream.reconfigure(errors="replace")
+    os.environ["MPLBACKEND"] = "agg"  # figures go to files
+    if os.path.lexists("matplotlibrc"):  # of a stranger's folder: it could ask for LaTeX
+        logging.getLogger("matplotlib").setLevel(logging.ERROR)
+        import matplotlib
+
+        matplotlib.rcdefaults()
 
 
 def _run(given: list[str]) -> int:

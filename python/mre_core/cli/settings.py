@@ -1,6 +1,7 @@
 """Settings files: read for ``--config``, and written beside the results so that a run can be repeated."""
 
 import os
+import re
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
@@ -9,12 +10,18 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..errors import InputError
+from ..stored import read_limited
 from .settings_schema import PAIRS, commands, keys_of, problem_in, table_of
 
 if TYPE_CHECKING:
     from ..output import Stage
 
 NAME = "settings.toml"
+_LARGEST = 10_000_000
+"""Bytes of a settings file: a hundred thousand recordings."""
+_MOST_DOTS = 1000
+"""In a line, outside of texts."""
+_QUOTED = re.compile(r"\"(?:[^\"\\]|\\.)*\"|'[^']*'")
 _SHARED = ("recordings", "recording", "name_pattern", *PAIRS[:3])
 """What describes the recordings stands at the top, for every command."""
 
@@ -24,15 +31,7 @@ def read_config(context: click.Context, _: click.Parameter, value: Path | None) 
     if value is None:
         return None
     file = str(value)
-    try:
-        content = tomllib.loads(value.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(f"cannot be read: {error.strerror}", file=file) from None
-    except RecursionError:
-        raise InputError("is not TOML: it is nested too deeply", file=file) from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InputError(f"is not TOML: {error}", file=file) from None
-    content = _underscored(content)
+    content = _read_toml(value)
     if problem := problem_in(content):
         raise InputError(problem[0], file=file, wanted=problem[1])
     given = {key: setting for key, setting in content.items() if key not in commands()}
@@ -90,6 +89,22 @@ def name_beside(result: Path) -> str:
     return f"{result.stem}.{NAME}"
 
 
+def _read_toml(path: Path) -> dict[str, Any]:
+    """Content of a settings file within limits, with underscores in its keys."""
+    file = str(path)
+    raw = read_limited(path, _LARGEST)
+    try:
+        text = raw.decode("utf-8").replace("\r\n", "\n")
+        # The parser takes the square of the parts of a key.
+        if any(_QUOTED.sub("", line).count(".") > _MOST_DOTS for line in text.split("\n")):
+            raise RecursionError
+        return _underscored(tomllib.loads(text))
+    except RecursionError:
+        raise InputError("is not TOML: it is nested too deeply", file=file) from None
+    except ValueError as error:  # also of numbers with thousands of digits
+        raise InputError(f"is not TOML: {error}", file=file) from None
+
+
 def _underscored(content: Mapping[str, Any]) -> dict[str, Any]:
     """Dashes in the keys of options stand for underscores; names of columns and roles stay."""
     return {
@@ -99,6 +114,8 @@ def _underscored(content: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _value(key: str, setting: Any, folder: Path) -> Any:
+    if setting == "" or (key == "recordings" and "" in setting):
+        raise InputError(f"--{key.replace('_', '-')} is empty", wanted="a value")
     if isinstance(setting, dict):
         return [f"{name}={_joined(value)}" for name, value in setting.items()]
     if key == "recordings":

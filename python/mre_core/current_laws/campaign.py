@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._core import Recording
-from ..errors import InputError
+from ..errors import InputError, shown
 from ..grouping import each_once, same_level
+from ..stored import number
 from .factors import DirectFactor, Samples, SinhFactor, triangle
 from .law import Dependence, Law
 from .shapes import ShapeBox, shape_boxes
@@ -222,11 +223,7 @@ def read_campaign(
         raise InputError(f"recordings at several currents ({found})", wanted=f"one, for laws over {over}")
     if not samples:
         raise InputError("recordings are an empty list", wanted="at least one recording")
-    for name, (low, high) in bounds.items():
-        if name not in structure.names:
-            raise InputError(f"bounds for '{name}'", wanted=f"one of {', '.join(structure.names)}")
-        if not low <= high:
-            raise InputError(f"bounds of {name} are {low} to {high}", wanted="lower at most upper")
+    bounds = {name: _pair(name, pair, structure) for name, pair in bounds.items()}
     limits = structure.limits(strongest)
     held = [p.factor for p in steady if isinstance(p.factor, DirectFactor)]
     kept = [r for factor in held for r in factor.recordings] + [c.samples.recording for c in changing]
@@ -240,6 +237,19 @@ def read_campaign(
         samples,
         weights,
     )
+
+
+def _pair(name: str, pair: tuple[float, float], structure: Structure) -> tuple[float, float]:
+    """Bounds of a parameter, checked."""
+    if name not in structure.names:
+        raise InputError(f"bounds for '{name}'", wanted=f"one of {', '.join(structure.names)}")
+    ends = list(pair) if isinstance(pair, Iterable) else []
+    if len(ends) != 2:
+        raise InputError(f"bounds of {name} are {shown(pair)}", wanted="(lower, upper)")
+    low, high = (number(end, f"a bound of {name}") for end in ends)
+    if low > high:
+        raise InputError(f"bounds of {name} are {low} to {high}", wanted="lower at most upper")
+    return low, high
 
 
 def weight_of(force: Array, *, by_force: bool) -> float:

@@ -8,7 +8,7 @@ from typing import Any, Literal
 import numpy as np
 
 from .._core import Recording
-from ..errors import InputError
+from ..errors import InputError, mapping
 from ..model import Level, Model
 from .bounds import notes_of, words_of
 from .campaign import Campaign, read_campaign
@@ -146,9 +146,10 @@ def fit_laws(
     check_over(over)
     if weights not in ("samples", "force"):
         raise InputError(f"weights is {weights!r}", wanted="samples or force")
-    given = _given(structure, laws or {}, shared)
+    given = _given(structure, mapping("laws", laws, "parameter to law"), shared)
+    boxes = mapping("bounds", bounds, "name to (lower, upper)")
     with threadpool_limits(1, "blas"):  # the same bits on any machine, and no waiting of small matrices
-        campaign = read_campaign(recordings, structure, bounds or {}, over, by_force=weights == "force")
+        campaign = read_campaign(recordings, structure, boxes, over, by_force=weights == "force")
         for name, kind in given.items():
             if campaign.variety < FEWEST[kind]:
                 found = f"{kind} for {name} with {campaign.variety} levels of the {over}"

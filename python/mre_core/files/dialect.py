@@ -10,8 +10,8 @@ from .options import SEPARATORS, ReadOptions
 
 # Marks between thousands count only with decimals behind them: 1,234 may be a decimal comma.
 _EXPONENT: Final = r"(?:[eE][+-]?\d+)?\s*"
-_POINT: Final = re.compile(r"\s*[+-]?(?:\d+\.?\d*|\.\d+|\d{1,3}(?:,\d{3})+\.\d+)" + _EXPONENT, re.ASCII)
-_COMMA: Final = re.compile(r"\s*[+-]?(?:\d+,?\d*|,\d+|\d{1,3}(?:\.\d{3})+,\d+)" + _EXPONENT, re.ASCII)
+_POINT: Final = re.compile(r"\s*[+-]?(?:\d+(?:\.\d*)?|\.\d+|\d{1,3}(?:,\d{3})+\.\d+)" + _EXPONENT, re.ASCII)
+_COMMA: Final = re.compile(r"\s*[+-]?(?:\d+(?:,\d*)?|,\d+|\d{1,3}(?:\.\d{3})+,\d+)" + _EXPONENT, re.ASCII)
 _PIECE: Final = 100
 _ROUNDING: Final = 1e-6
 """More than what sums of some hundred shares differ by."""

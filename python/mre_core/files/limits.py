@@ -1,6 +1,7 @@
 """Sizes that no recording of a rig has: a small file can unpack to more than the memory."""
 
 from pathlib import Path
+from stat import S_ISDIR, S_ISREG
 from typing import Any, Final
 
 from ..errors import InputError
@@ -56,16 +57,19 @@ def check_file(path: Path) -> None:
         wanted = "another name: it goes into results"
         raise InputError("its name is no text in UTF-8", file=str(path), wanted=wanted)
     try:
-        size = path.stat().st_size
-        if path.is_dir():
+        status = path.stat()
+        if S_ISDIR(status.st_mode):
             wanted = f"one of the files in it, such as {path / '*.csv'}"
             raise InputError("is a folder", file=str(path), wanted=wanted)
+        if not S_ISREG(status.st_mode):  # a pipe may wait for ever, and a device never end
+            raise InputError("is no regular file", file=str(path), wanted="a file that is written")
         with path.open("rb"):
             pass
     except FileNotFoundError:
         raise InputError(f"there is no such file{_nearest(path)}", file=str(path)) from None
     except OSError as error:
         raise _unreadable(path, error) from None
+    size = status.st_size
     if size > MOST_BYTES:
         wanted = f"at most {MOST_BYTES / 2**30:.0f} GiB (mre_core.read_chunks reads CSV of any size)"
         raise InputError(f"has {size / 2**30:.1f} GiB", file=str(path), value=size, wanted=wanted)

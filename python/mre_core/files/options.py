@@ -5,7 +5,7 @@ import math
 from collections.abc import Callable, Mapping
 from typing import Any, Final, NamedTuple
 
-from ..errors import InputError
+from ..errors import InputError, mapping
 
 SEPARATORS: Final = {"comma": ",", "semicolon": ";", "tab": "\t", "bar": "|", "blank": ""}
 _SIGNS: Final = {",": ",", ";": ";", "\t": "\t", "\\t": "\t", "|": "|", " ": ""} | SEPARATORS
@@ -46,10 +46,11 @@ class ReadOptions(NamedTuple):
         InputError
             Another key, or a value that is not usable.
         """
-        for key in given or {}:
+        options = mapping("read", given, "key to value")
+        for key in options:
             if key not in _READ:
                 raise InputError(f"read names '{key}'", value=key, wanted=f"one of {', '.join(_READ)}")
-        return cls(**{key: _READ[key](str(value)) for key, value in (given or {}).items()})
+        return cls(**{key: _READ[key](str(value)) for key, value in options.items()})
 
 
 def _encoding(text: str) -> str:

@@ -88,7 +88,7 @@ def find_files(paths: Iterable[str | os.PathLike[str]]) -> list[Path]:
     """
     found = []
     for path in map(Path, paths):
-        if not path.is_dir():
+        if not os.path.isdir(path):  # False also for a name that no file can have
             found.append(path)
             continue
         files = [
@@ -106,9 +106,10 @@ def find_files(paths: Iterable[str | os.PathLike[str]]) -> list[Path]:
 
 def _check_once(files: Iterable[Path]) -> None:
     """Refuse a file that is named twice: it would count as more than was measured."""
-    seen: dict[Path, Path] = {}
+    seen: dict[str, Path] = {}
     for file in files:
-        if other := seen.get(file.resolve()):
+        place = os.path.realpath(file)  # which a link to itself has, too
+        if other := seen.get(place):
             also = "" if other == file else f", also as {other}"
             raise InputError(f"the file is given twice{also}", file=str(file), wanted="each file once")
-        seen[file.resolve()] = file
+        seen[place] = file

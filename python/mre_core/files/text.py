@@ -11,7 +11,7 @@ from .clock import is_clock
 from .dialect import Dialect, find_dialect
 from .encoding import decode
 from .layout import Block, Rows, find_block
-from .limits import read_bytes
+from .limits import MOST_COLUMNS, read_bytes
 from .options import ReadOptions
 from .table import NoTableError, NotesError, Table
 
@@ -106,6 +106,10 @@ def find_table(
     rows = _rows(lines, dialect)
     if options.header is not None and options.header > len(lines):
         raise InputError(f"has {len(lines)} lines", file=file, wanted=f"a header in line {options.header}")
+    for i, line in enumerate(lines):
+        if len(line) > MOST_COLUMNS and (width := len(dialect.cells(line))) > MOST_COLUMNS:
+            found = f"has {width} columns"
+            raise InputError(found, file=file, line=i + 1, wanted=f"at most {MOST_COLUMNS} columns")
     block = find_block(rows, None if options.header is None else options.header - 1)
     if block is None:
         raise NotesError("no rows of numbers", file=file, wanted=f"a header such as {_EXAMPLE} and data")

@@ -6,10 +6,10 @@ from typing import Any
 import numpy as np
 
 from .._core import Problem
+from ..crew import Crew
 from ..results import SwarmResult
 from ..swarms import afsa, mafsa, pso
 from .campaign import Case
-from .crew import Crew
 from .effort import Effort
 from .paper import ITERATIONS
 from .swarm_runs import best_known, curve_by_evaluations, curve_by_iteration, lower_share, seeds, summarise

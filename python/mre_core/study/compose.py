@@ -5,6 +5,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from .._core import Recording, __version__
+from ..crew import Crew, OnProgress
 from ..minimise import draw_seed
 from . import (
     figure02_weights,
@@ -16,7 +17,6 @@ from . import (
     readings,
 )
 from .campaign import Campaign, as_campaign, replica
-from .crew import Crew, OnProgress
 from .effort import FULL, Effort
 from .paper import TABLE_2
 from .section import Section

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..crew import Crew
 from .campaign import Campaign
-from .crew import Crew
 from .effort import Effort
 from .rms_errors import BETTER, SEARCHES, rms_errors, summarise_errors
 from .section import Claim, Section, Table

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .._core import Problem
+from ..crew import Crew
 from ..results import SwarmResult
 from ..swarms import mafsa
 from .campaign import Case
-from .crew import Crew
 from .effort import Effort
 from .paper import POPULATIONS, TABLE_3_FITNESS, TABLE_3_SECONDS
 from .readings import MAFSA_READINGS

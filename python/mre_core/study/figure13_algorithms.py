@@ -6,9 +6,9 @@ An iteration of 50 fish with 50 looks each costs thousands of evaluations, one o
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+from ..crew import Crew
 from .budgets import run_budgets
 from .campaign import Case
-from .crew import Crew
 from .effort import Effort
 from .paper import ITERATIONS
 from .section import Claim, Section, Table

@@ -7,11 +7,11 @@ import numpy as np
 
 from .._core import Problem
 from ..certificate import certificate
+from ..crew import Crew
 from ..fits import exact
 from ..model import Level, Model, simulate
 from ..uncertainty import uncertainty
 from .campaign import Campaign
-from .crew import Crew
 from .loops import identified, loop
 from .paper import RELATIVE_ERROR
 from .section import Claim, Section, Table

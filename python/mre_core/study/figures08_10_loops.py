@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+from ..crew import Crew
 from .campaign import Campaign, Case
-from .crew import Crew
 from .loops import identified, loop
 from .section import Claim, Section, Table
 from .style import LINES, figure

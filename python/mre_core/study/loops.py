@@ -4,10 +4,10 @@ from typing import Any
 
 import numpy as np
 
+from ..crew import Crew
 from ..identify import Identification, identify
 from ..model import simulate
 from .campaign import Case
-from .crew import Crew
 from .paper import RELATIVE_ERROR
 
 

@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .._core import Problem
+from ..crew import Crew
 from ..results import SwarmResult
 from ..swarms import afsa, mafsa, pso
 from .campaign import Case
-from .crew import Crew
 from .effort import Effort
 from .section import Claim, Section, Table, Verdict
 from .style import figure

@@ -6,12 +6,12 @@ from typing import Any
 import numpy as np
 
 from .._core import Problem
+from ..crew import Crew
 from ..fits import exact, hybrid
 from ..results import SwarmResult
 from ..swarms import mafsa, pso
 from .campaign import Campaign, Case
 from .classical_search import classical_pso
-from .crew import Crew
 from .effort import Effort
 from .swarm_runs import seeds
 

@@ -5,23 +5,26 @@ use pyo3::prelude::*;
 use pyo3::types::PyMapping;
 
 use crate::array::{rows, vector};
-use crate::error::{setting, to_python};
+use crate::error::{quoted, setting, to_python};
 
 /// Bounds by name, in the order of the names: the same error whatever the order of the mapping.
 pub(crate) fn by_name(bounds: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<(String, f64, f64)>> {
     let Some(bounds) = bounds else { return Ok(Vec::new()) };
     let Ok(mapping) = bounds.cast::<PyMapping>() else {
-        return Err(setting("bounds", bounds.repr()?, "a mapping of name to (lower, upper)"));
+        return Err(setting("bounds", quoted(bounds), "a mapping of name to (lower, upper)"));
     };
     let mut found = Vec::new();
     for item in mapping.items()?.iter() {
         let (name, pair): (Bound<'_, PyAny>, Bound<'_, PyAny>) = item.extract()?;
         let Ok(name) = name.extract::<String>() else {
-            return Err(setting("a name of bounds", name.repr()?, "the symbol of a parameter"));
+            return Err(setting("a name of bounds", quoted(&name), "the symbol of a parameter"));
         };
-        match vector(&name, &pair).unwrap_or_default()[..] {
+        let what = format!("bounds of {name}");
+        match vector(&what, &pair).map_err(|_| setting(&what, quoted(&pair), "(lower, upper)"))?[..] {
             [low, high] => found.push((name, low, high)),
-            _ => return Err(setting(&format!("bounds of {name}"), pair.repr()?, "(lower, upper)")),
+            ref other => {
+                return Err(setting(&format!("number of {what}"), other.len(), "two, (lower, upper)"));
+            }
         }
     }
     found.sort_by(|a, b| a.0.cmp(&b.0));

@@ -12,7 +12,7 @@ use mre::swarm::{Monitor, Progress};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
 
-use crate::error::{MreError, setting};
+use crate::error::setting;
 
 const POLL: Duration = Duration::from_millis(50);
 
@@ -181,6 +181,6 @@ pub(crate) fn raises(on_interrupt: &str) -> PyResult<bool> {
     match on_interrupt {
         "raise" => Ok(true),
         "return" => Ok(false),
-        other => Err(MreError::new_err(format!("on_interrupt is '{other}': wanted 'raise' or 'return'"))),
+        other => Err(setting("on_interrupt", format!("'{other}'"), "wanted 'raise' or 'return'")),
     }
 }

@@ -7,7 +7,7 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyInt};
 
-use crate::error::{setting, to_python};
+use crate::error::{of_type, quoted, setting, to_python};
 use crate::run::raises;
 
 fn count(name: &str, value: i64) -> PyResult<usize> {
@@ -33,9 +33,9 @@ where
     match settings.get_item(name)? {
         Some(value) => value.extract::<T>().map_err(|_| {
             if value.is_instance_of::<PyInt>() {
-                return setting(name, &value, "a smaller number"); // an integer beyond 64 bits
+                return setting(name, quoted(&value), "a smaller number"); // an integer beyond 64 bits
             }
-            PyTypeError::new_err(format!("{name} is {value:?}: wanted {wanted}"))
+            of_type(&format!("{name} is {}: wanted {wanted}", quoted(&value)))
         }),
         None => Err(PyTypeError::new_err(format!("{name} is missing: wanted {wanted}"))),
     }

@@ -214,6 +214,15 @@ pub(crate) fn uniforms(py: Python<'_>, seed: u64, stream: usize, count: usize) -
 
 /// Eq. 8: `exp(-20 (iteration / iterations)^p)`.
 #[pyfunction]
-pub(crate) fn inertia_weight(iteration: usize, iterations: usize, p: u32) -> f64 {
-    mre::swarm::inertia_weight(iteration, iterations, p)
+pub(crate) fn inertia_weight(iteration: i64, iterations: i64, p: i64) -> PyResult<f64> {
+    let whole = |name, value: i64, least| {
+        let wanted = format!("a whole number from {least} to 10000000");
+        usize::try_from(value)
+            .ok()
+            .filter(|n| (least..=10_000_000).contains(n))
+            .ok_or_else(|| setting(name, value, &wanted))
+    };
+    let (now, all) = (whole("iteration", iteration, 0)?, whole("iterations", iterations, 1)?);
+    let p = u32::try_from(whole("p", p, 0)?).unwrap_or(u32::MAX);
+    Ok(mre::swarm::inertia_weight(now, all, p))
 }

@@ -99,15 +99,8 @@ impl Device {
                 }
             }
         }
-        let Some(first) = force.iter().position(|f| !f.is_finite()) else { return Ok(force) };
-        // A term that cannot be computed is infinite from the start; one that overflows has a place.
-        let place = if first == 0 { String::new() } else { format!(" at {} s", recording.time()[first]) };
-        let text = format!(
-            "the force of {} cannot be computed{place}: the samples are too far apart, or the displacement \
-             too large, for these parameters",
-            self.model.name()
-        );
-        Err(Error::Recording(text).in_recording(recording.name()))
+        computed(&self.model, recording, 0, &force)?;
+        Ok(force)
     }
 
     /// The force in N term by term, with what each term does with energy.
@@ -145,6 +138,19 @@ impl Device {
             1.0
         }
     }
+}
+
+/// Refuse a force, given from sample `start` on, that is not finite.
+pub(crate) fn computed(model: &Model, recording: &Recording, start: usize, force: &[f64]) -> Result<()> {
+    let Some(first) = force.iter().position(|f| !f.is_finite()) else { return Ok(()) };
+    // A term that cannot be computed is infinite from the start; one that overflows has a place.
+    let place = if first == 0 { String::new() } else { format!(" at {} s", recording.time()[start + first]) };
+    let text = format!(
+        "the force of {} cannot be computed{place}: the samples are too far apart, or the displacement \
+         too large, for these parameters",
+        model.name()
+    );
+    Err(Error::Recording(text).in_recording(recording.name()))
 }
 
 fn currents(recording: &Recording) -> Result<Vec<f64>> {

@@ -30,6 +30,9 @@ pub struct Parameter {
     pub scale: Scale,
 }
 
+/// A bound beyond this could not be squared beside forces and motions that are taken.
+const LARGEST_BOUND: f64 = 1e100;
+
 /// A box and its map to the unit box.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bounds {
@@ -38,11 +41,21 @@ pub struct Bounds {
     scale: Vec<Scale>,
 }
 
+/// A number for a message: with an exponent where it would have too many zeros.
+pub(crate) fn short(value: f64) -> String {
+    let size = value.abs();
+    if size == 0.0 || !size.is_finite() || (1e-6..1e12).contains(&size) {
+        format!("{value}")
+    } else {
+        format!("{value:e}")
+    }
+}
+
 impl Bounds {
     /// A box; every parameter is named in the errors.
     ///
     /// # Errors
-    /// A bound that is not finite, a lower bound that is not below the upper one, or a logarithmic
+    /// A bound that is not finite or beyond 1e100, a lower bound that is not below the upper one, or a logarithmic
     /// scale that reaches zero.
     pub fn new(names: &[String], lower: Vec<f64>, upper: Vec<f64>, scale: Vec<Scale>) -> Result<Self> {
         if lower.is_empty() {
@@ -52,6 +65,8 @@ impl Bounds {
             let (low, high) = (lower[i], upper[i]);
             let wanted = if !low.is_finite() || !high.is_finite() {
                 "both bounds have to be finite numbers"
+            } else if low.abs().max(high.abs()) > LARGEST_BOUND {
+                "both bounds have to be within 1e100"
             } else if low >= high {
                 "the lower bound has to be below the upper one"
             } else if scale[i] == Scale::Log && low <= 0.0 {
@@ -59,7 +74,11 @@ impl Bounds {
             } else {
                 continue;
             };
-            return Err(Error::setting(format!("bound of {name}"), format!("{low}:{high}"), wanted));
+            return Err(Error::setting(
+                format!("bound of {name}"),
+                format!("{}:{}", short(low), short(high)),
+                wanted,
+            ));
         }
         Ok(Self { lower, upper, scale })
     }

@@ -1,7 +1,7 @@
 //! The box of a problem: default bounds, some of them replaced.
 
 use crate::error::{Error, Result};
-use crate::parameter::{Bounds, Parameter};
+use crate::parameter::{Bounds, Parameter, short};
 use crate::physics::SINH_LARGEST;
 
 /// Replace default bounds by those given for a name. `displacement` is the largest one, mm.
@@ -19,7 +19,11 @@ pub(super) fn choose(
         (parameters[i].lower, parameters[i].upper) = (*lower, *upper);
     }
     let refused = |p: &Parameter, wanted: String| {
-        Err(Error::setting(format!("bound of {}", p.name), format!("{}:{}", p.lower, p.upper), wanted))
+        Err(Error::setting(
+            format!("bound of {}", p.name),
+            format!("{}:{}", short(p.lower), short(p.upper)),
+            wanted,
+        ))
     };
     if let Some(p) = parameters.iter().find(|p| p.lower < p.smallest || p.upper > p.largest) {
         return refused(p, format!("within {} and {}", p.smallest, p.largest));

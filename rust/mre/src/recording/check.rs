@@ -3,6 +3,9 @@
 use super::{Condition, LARGEST, MIN_SAMPLES, SMALLEST, Series, extent};
 use crate::error::{Error, Result};
 
+/// Nothing is colder, degC.
+const ABSOLUTE_ZERO: f64 = -273.15;
+
 pub(super) fn series(series: &Series) -> Result<()> {
     let n = series.time.len();
     if n < MIN_SAMPLES {
@@ -31,6 +34,7 @@ pub(super) fn series(series: &Series) -> Result<()> {
         }
         usable(what, values)?;
     }
+    warm(&series.temperature)?;
     let (low, high) = extent(&series.displacement);
     if low == high {
         return Err(Error::Recording(format!(
@@ -44,6 +48,21 @@ pub(super) fn series(series: &Series) -> Result<()> {
         )));
     }
     Ok(())
+}
+
+/// Refuse a temperature that nothing has.
+fn warm(temperature: &Condition) -> Result<()> {
+    let values = match temperature {
+        Condition::Missing => return Ok(()),
+        Condition::Constant(value) => std::slice::from_ref(value),
+        Condition::Series(values) => values,
+    };
+    let Some(index) = values.iter().position(|t| *t < ABSOLUTE_ZERO) else { return Ok(()) };
+    let text = format!(
+        "temperature is {} degC at sample {index}: at least {ABSOLUTE_ZERO} degC, absolute zero, is needed",
+        values[index]
+    );
+    Err(Error::Recording(text))
 }
 
 /// Refuse a series with a sample that is not finite or beyond [`LARGEST`].

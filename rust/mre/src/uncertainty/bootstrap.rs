@@ -25,7 +25,7 @@ const MOST: usize = 1_000_000;
 /// What refits of simulated recordings gave.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bootstrap {
-    /// Parameters, then derived quantities: name and unit.
+    /// Parameters, then derived quantities that can be computed: name and unit.
     pub names: Vec<(String, &'static str)>,
     /// Number of parameters among them.
     pub parameters: usize,
@@ -57,7 +57,7 @@ pub fn bootstrap(
         return Err(Error::setting("replicates", replicates, format!("a whole number from 2 to {MOST}")));
     }
     let local = Local::new(problem, values, cancel)?;
-    let derived = Derived::new(problem)?;
+    let derived = Derived::new(problem);
     let sources: Vec<Source> = (0..problem.recordings().len()).map(|r| Source::new(&local, r)).collect();
     let rows: Result<Vec<Vec<f64>>> = (0..replicates)
         .into_par_iter()
@@ -73,10 +73,14 @@ pub fn bootstrap(
             Ok(found)
         })
         .collect();
-    let rows = rows?;
+    let mut rows = rows?;
     let mut names: Vec<(String, &'static str)> =
         problem.parameters().iter().map(|p| (p.name.clone(), p.unit)).collect();
     names.extend(derived.names(values));
+    let known: Vec<bool> =
+        (0..names.len()).map(|j| j < values.len() || rows.iter().all(|row| row[j].is_finite())).collect();
+    names = picked(names, &known);
+    rows = rows.into_iter().map(|row| picked(row, &known)).collect();
     let intervals =
         (0..names.len()).map(|j| percentiles(rows.iter().map(|row| row[j]).collect(), level)).collect();
     Ok(Bootstrap {
@@ -86,6 +90,11 @@ pub fn bootstrap(
         intervals,
         blocks: sources.iter().map(|source| source.block).collect(),
     })
+}
+
+/// Columns that could be computed in every replicate.
+fn picked<T>(row: Vec<T>, known: &[bool]) -> Vec<T> {
+    row.into_iter().zip(known).filter_map(|(value, known)| known.then_some(value)).collect()
 }
 
 /// Ends between which the middle share of the values lies, by linear interpolation.

@@ -1,6 +1,7 @@
 //! Quantities that the parameters determine together, often far better than each of them.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{SQRT_2, TAU};
+use std::sync::OnceLock;
 
 use crate::error::Result;
 use crate::fitness::Problem;
@@ -8,8 +9,9 @@ use crate::recording::{Condition, Recording, Series, extent};
 
 /// Cycles of the steady motion; the last one counts.
 const CYCLES: usize = 3;
-/// Samples a cycle, a multiple of four so that the displacement extremes are among them.
-const SAMPLES: usize = 256;
+/// Samples a cycle, multiples of four so that the displacement extremes are among them. The first at which
+/// the force can be computed counts: a stiff device wants small steps.
+const SAMPLES: [usize; 5] = [256, 1024, 4096, 16384, 65536];
 
 /// A combination of a model's parameters by formula.
 pub(super) struct Combination {
@@ -73,9 +75,9 @@ impl Cycle {
     }
 
     /// Steady sines at this amplitude and frequency, from rest.
-    fn motion(&self) -> Result<Recording> {
+    fn motion(&self, samples: usize) -> Result<Recording> {
         let time: Vec<f64> =
-            (0..CYCLES * SAMPLES).map(|i| i as f64 / (SAMPLES as f64 * self.frequency)).collect();
+            (0..CYCLES * samples).map(|i| i as f64 / (samples as f64 * self.frequency)).collect();
         let phase = |t: &f64| TAU * self.frequency * t;
         let series = Series {
             displacement: time.iter().map(|t| self.amplitude * phase(t).sin()).collect(),
@@ -102,12 +104,14 @@ fn rms(values: &[f64]) -> f64 {
 /// Evaluates the quantities of a problem.
 pub(super) struct Derived<'a> {
     problem: &'a Problem,
-    motion: Recording,
+    cycle: Cycle,
+    /// The motion at each of [`SAMPLES`], where it was wanted.
+    motions: [OnceLock<Option<Recording>>; SAMPLES.len()],
 }
 
 impl<'a> Derived<'a> {
-    pub(super) fn new(problem: &'a Problem) -> Result<Self> {
-        Ok(Self { problem, motion: Cycle::of(problem).motion()? })
+    pub(super) fn new(problem: &'a Problem) -> Self {
+        Self { problem, cycle: Cycle::of(problem), motions: Default::default() }
     }
 
     /// Name and unit of every quantity.
@@ -126,29 +130,48 @@ impl<'a> Derived<'a> {
         out
     }
 
-    /// Their values.
+    /// Size of a quantity that alone makes up a force of this rms on the steady motion: beyond it, an
+    /// interval that reaches zero says nothing.
+    pub(super) fn size(&self, unit: &str, rms: f64) -> f64 {
+        let (amplitude, peak) = (self.cycle.amplitude, SQRT_2 * rms);
+        match unit {
+            "N/mm^3" => peak / amplitude.powi(3),
+            "N mm" => 4.0 * peak * amplitude, // a rectangle
+            _ => peak / amplitude,
+        }
+    }
+
+    /// Their values; not finite where the steady motion cannot be computed at any number of samples.
     pub(super) fn values(&self, values: &[f64]) -> Vec<f64> {
         let model = self.problem.model();
         let mut out = Vec::new();
         for level in self.problem.law().levels(values, None) {
             out.extend(combinations(model.name()).iter().map(|c| (c.of)(&level.values)));
-            let n = self.motion.len();
-            let (mut force, mut column) = (vec![0.0; n], vec![0.0; n]);
-            model.add_force(&self.motion, &level.values, None, &mut column, &mut force);
-            out.extend(self.effective(&force));
+            out.extend(self.effective(&level.values));
         }
         out
     }
 
     /// Stiffness between the displacement extremes, and the area of the last cycle.
-    fn effective(&self, force: &[f64]) -> [f64; 2] {
-        let first = (CYCLES - 1) * SAMPLES;
-        let (top, bottom) = (first + SAMPLES / 4, first + 3 * SAMPLES / 4);
-        let x = self.motion.displacement();
-        let stiffness = (force[top] - force[bottom]) / (x[top] - x[bottom]);
-        let velocity = &self.motion.velocity()[first..];
-        // One period of even samples: the sum is the integral to all digits for a smooth force.
-        let power: f64 = force[first..].iter().zip(velocity).map(|(f, v)| f * v).sum();
-        [stiffness, power * (self.motion.time()[1] - self.motion.time()[0])]
+    fn effective(&self, values: &[f64]) -> [f64; 2] {
+        for (samples, motion) in SAMPLES.into_iter().zip(&self.motions) {
+            let Some(motion) = motion.get_or_init(|| self.cycle.motion(samples).ok()) else { continue };
+            let (mut force, mut column) = (vec![0.0; motion.len()], vec![0.0; motion.len()]);
+            self.problem.model().add_force(motion, values, None, &mut column, &mut force);
+            if force.iter().all(|f| f.is_finite()) {
+                return over_last_cycle(motion, samples, &force);
+            }
+        }
+        [f64::NAN; 2]
     }
+}
+
+fn over_last_cycle(motion: &Recording, samples: usize, force: &[f64]) -> [f64; 2] {
+    let first = (CYCLES - 1) * samples;
+    let (top, bottom) = (first + samples / 4, first + 3 * samples / 4);
+    let x = motion.displacement();
+    let stiffness = (force[top] - force[bottom]) / (x[top] - x[bottom]);
+    // One period of even samples: the sum is the integral to all digits for a smooth force.
+    let power: f64 = force[first..].iter().zip(&motion.velocity()[first..]).map(|(f, v)| f * v).sum();
+    [stiffness, power * (motion.time()[1] - motion.time()[0])]
 }

@@ -80,11 +80,13 @@ pub(super) fn combinations(
         .collect();
     let names = derived.names(local.values).into_iter().zip(values).enumerate();
     names
+        .filter(|(k, (_, value))| value.is_finite() && slopes.iter().all(|slope| slope[*k].is_finite()))
         .map(|(k, ((name, unit), value))| {
             let slope = DVector::from_fn(local.free.len(), |i, _| slopes[i][k]);
             let (error, reach) = spread(covariance, &slope, level);
             let determined = reach < value.abs();
-            let interval = Some((value - reach, value + reach));
+            let meant = determined || reach < derived.size(unit, local.force);
+            let interval = meant.then_some((value - reach, value + reach));
             Estimate { name, unit, value, standard_error: Some(error), interval, determined }
         })
         .collect()

@@ -7,6 +7,7 @@ use nalgebra::DMatrix;
 use super::covariance::Tangents;
 use super::noise::Noise;
 use super::tangent::{force, tangents};
+use crate::device::computed;
 use crate::error::{Error, Result};
 use crate::fitness::Problem;
 
@@ -38,6 +39,7 @@ impl<'a> Local<'a> {
         for (recording, weight) in problem.recordings().iter().zip(problem.weights()) {
             let measured = &recording.force().unwrap_or_default()[recording.scored()];
             let found = force(law, model, recording, values);
+            computed(model, recording, recording.scored().start, &found)?;
             first += weight * measured.iter().sum::<f64>();
             second += weight * measured.iter().map(|f| f * f).sum::<f64>();
             residuals.push(measured.iter().zip(&found).map(|(m, f)| m - f).collect::<Vec<f64>>());

@@ -42,7 +42,8 @@ pub struct Estimate {
     /// Standard error; `None` where the recordings say nothing, or the box fixes the parameter.
     pub standard_error: Option<f64>,
     /// Interval within the admissible values; `None` where an interval would pretend: see
-    /// [`Self::determined`], and for a parameter on a bound that is no physical limit.
+    /// [`Self::determined`], for a parameter on a bound that is no physical limit, and for a derived
+    /// quantity that is not determined to within what makes up the whole force.
     pub interval: Option<(f64, f64)>,
     /// False where the interval reaches zero (unless a standard error of the parameter hardly moves the
     /// force); for a parameter also where it is wider than the box, or tied to such a one.
@@ -56,7 +57,7 @@ pub struct Uncertainty {
     pub level: f64,
     /// The problem's parameters.
     pub parameters: Vec<Estimate>,
-    /// Combinations, and the steady cycle at [`Cycle`].
+    /// Combinations, and the steady cycle at [`Cycle`]; without what cannot be computed.
     pub derived: Vec<Estimate>,
     /// Correlation matrix of the parameters, row by row; a parameter without standard error is
     /// correlated with none.
@@ -82,7 +83,7 @@ pub fn estimate(problem: &Problem, values: &[f64], level: f64, cancel: &AtomicBo
     check_level(level)?;
     let local = Local::new(problem, values, cancel)?;
     let covariance = local.tangents.covariance(&local.noise, cancel)?;
-    let derived = Derived::new(problem)?;
+    let derived = Derived::new(problem);
     let correlation = local.correlation(&covariance.matrix);
     let parameters = parameters(&local, &covariance, &correlation, level);
     let derived = combinations(&local, &covariance, &derived, level);

@@ -6,7 +6,7 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from threading import Event
 from typing import Any, TypeVar
 
-from ..errors import InputError
+from .errors import InputError
 
 Job = TypeVar("Job")
 Outcome = TypeVar("Outcome")
@@ -15,7 +15,7 @@ OnProgress = Callable[[str, int, int], Any]
 
 
 class Crew:
-    """Threads for the jobs of a study.
+    """Threads for jobs that need each other only as a whole.
 
     Parameters
     ----------
