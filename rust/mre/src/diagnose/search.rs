@@ -61,12 +61,12 @@ impl<'a> Named<'a> {
         Candidate { assembly: self.assembly.clone(), fitted: self.fitted.clone() }
     }
 
-    /// Rms in N of what the best candidate leaves, or the model itself where there is none.
+    /// Rms in N of what the best candidate leaves, or the model itself where that is less: fits make what the noise
+    /// cannot predict smallest, not what is left.
     pub(super) fn noise_rms(&self, data: Data) -> f64 {
-        rms(&match &self.next {
-            Some(next) => residuals(&next.assembly, data, &next.fitted),
-            None => residuals(&self.assembly, data, &self.fitted),
-        })
+        let own = rms(&residuals(&self.assembly, data, &self.fitted));
+        let of_next = |next: &Candidate| rms(&residuals(&next.assembly, data, &next.fitted));
+        self.next.as_ref().map_or(own, |next| own.min(of_next(next)))
     }
 }
 
