@@ -7,13 +7,16 @@ use super::in_series::nearer;
 use crate::device::Device;
 use crate::effect::{Effect, Factors, Scene, Sizes};
 use crate::error::{Error, Result};
+use crate::kernel::filter::dot;
 use crate::physics::Part;
 use crate::recording::Recording;
 
 /// Passes until the force agrees with what effects saw of it.
 const PASSES: usize = 40;
-/// Share of the largest force by which two forces that agree differ.
+/// Share of a force, rms, by which two that agree differ.
 const AGREED: f64 = 1e-9;
+/// The same for a force that is near enough after all passes: dry friction never quite settles where it turns.
+const ENOUGH: f64 = 0.02;
 
 /// An effect with its parameters.
 #[derive(Clone)]
@@ -56,11 +59,18 @@ pub fn simulate(
         let mut known = alone.clone();
         for _ in 0..PASSES {
             let better = nearer(recording, &known, &force, flexibility);
-            if !apart(&known, &better) {
+            if distance(&known, &better) <= AGREED {
                 break;
             }
             known = better;
             force = pass(&known)?;
+        }
+        let left = distance(&known, &force);
+        if left > ENOUGH {
+            let text = format!(
+                "the force and the motion that it leaves the device do not agree, to {left:.1e} of it"
+            );
+            return Err(Error::Recording(text).in_recording(recording.name()));
         }
     }
     match force.iter().position(|f| !f.is_finite()) {
@@ -111,10 +121,10 @@ fn pass(device: &Device, additions: &[Addition], recording: &Recording, scene: &
     Ok(force)
 }
 
-/// True where two forces do not agree yet.
-fn apart(a: &[f64], b: &[f64]) -> bool {
-    let largest = b.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-    a.iter().zip(b).any(|(a, b)| (a - b).abs() > AGREED * largest)
+/// Difference of two forces as a share of the second, rms.
+fn distance(a: &[f64], b: &[f64]) -> f64 {
+    let apart: f64 = a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum();
+    (apart / dot(b, b).max(f64::MIN_POSITIVE)).sqrt()
 }
 
 fn factor(factors: &Factors, part: Part, i: usize) -> f64 {

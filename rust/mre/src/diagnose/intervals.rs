@@ -71,6 +71,9 @@ pub(super) fn estimates(assembly: &Assembly, data: Data, unit: &[f64]) -> Estima
         .enumerate()
         .map(|(j, (p, value))| {
             let half = WIDTH * deviation(first + j);
+            let at_box = [p.lower, p.upper].contains(&value) && ![p.smallest, p.largest].contains(&value);
+            // Wider than its box, or where only the box ends it, a parameter is not determined.
+            let half = if half < 1.0 && !at_box { half } else { f64::INFINITY };
             let (low, high) = match p.scale {
                 Scale::Linear => {
                     let half = half * (p.upper - p.lower);

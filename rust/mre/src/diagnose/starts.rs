@@ -7,9 +7,6 @@ use crate::assembly::Assembly;
 use crate::effect::{Effect, InitialState, starts_in_motion};
 use crate::kernel::filter::dot;
 
-/// Ridge on columns of unit size: decays of neighbouring times are nearly the same.
-const RIDGE: f64 = 1e-10;
-
 /// Forces in N of a model, with what an unknown initial state explains of what they leave.
 pub(super) fn with_initial_states(assembly: &Assembly, mut forces: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     for (r, force) in forces.iter_mut().enumerate() {
@@ -32,17 +29,14 @@ pub(super) fn without_initial_state(assembly: &Assembly, r: usize, residual: Vec
     if !starts_in_motion(recording) {
         return residual;
     }
-    let columns: Vec<Vec<f64>> = InitialState
-        .columns(&assembly.scene(r), &[])
-        .into_iter()
-        .map(|column| column[recording.scored()].to_vec())
-        .map(|column| {
-            let size = dot(&column, &column).sqrt().max(f64::MIN_POSITIVE);
-            column.into_iter().map(|value| value / size).collect()
-        })
-        .collect();
+    let scored = |column: Vec<f64>| column[recording.scored()].to_vec();
+    let columns: Vec<Vec<f64>> =
+        InitialState.columns(&assembly.scene(r), &[]).into_iter().map(scored).collect();
+    // No remainder is larger than the force.
+    let largest = assembly.campaign().sizes().force;
+    let ridge = dot(&residual, &residual) / residual.len() as f64 / largest.powi(2);
     let gram = DMatrix::from_fn(columns.len(), columns.len(), |i, j| {
-        dot(&columns[i], &columns[j]) + if i == j { RIDGE } else { 0.0 }
+        dot(&columns[i], &columns[j]) + if i == j { ridge } else { 0.0 }
     });
     let right = DVector::from_fn(columns.len(), |i, _| dot(&columns[i], &residual));
     let Some(factor) = gram.cholesky() else { return residual };

@@ -47,6 +47,7 @@ mod with_current;
 
 pub use catalogue::{CATALOGUE, named};
 pub use initial_state::{InitialState, starts_in_motion};
+pub(crate) use operators::slope;
 pub use quantisation::Quantisation;
 pub use scene::{Scene, Sizes};
 

@@ -50,7 +50,7 @@ pub(super) fn integral(scene: &Scene, rate: impl Fn(usize) -> f64) -> Vec<f64> {
 }
 
 /// Central differences.
-pub(super) fn slope(time: &[f64], series: &[f64]) -> Vec<f64> {
+pub(crate) fn slope(time: &[f64], series: &[f64]) -> Vec<f64> {
     let last = series.len() - 1;
     (0..=last)
         .map(|i| {
