@@ -61,7 +61,7 @@ def test_a_pipe_is_not_waited_for(cli: Cli, tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "a.csv")
     status, out, err = cli("inspect", tmp_path / "a.csv")
     assert (status, out) == (2, "")
-    assert "a.csv: is no regular file" in err
+    assert "a.csv: is no regular file, wanted a regular file: write it out first" in err
 
 
 def test_a_link_to_itself(cli: Cli, tmp_path: Path) -> None:
