@@ -87,6 +87,15 @@ def test_the_surroundings_stop_no_command(tmp_path: Path) -> None:
     assert list((tmp_path / "new").glob("*.png"))
 
 
+def test_the_surroundings_stay_as_they_are(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("MPLBACKEND", "nonsense")
+    assert cli("inspect", "none.csv")[0] == 2
+    assert os.environ["MPLBACKEND"] == "nonsense"
+    monkeypatch.delenv("MPLBACKEND")
+    assert cli("inspect", "none.csv")[0] == 2
+    assert "MPLBACKEND" not in os.environ
+
+
 def test_a_null_byte_in_a_name(cli: Cli, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "a.csv").write_bytes(instead(1, HEADER))
     (tmp_path / "c.toml").write_text('out = "a\\u0000b"')
