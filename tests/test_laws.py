@@ -437,6 +437,17 @@ def test_command(cli: Cli, tmp_path: Path) -> None:
         assert not (tmp_path / "new").exists()
 
 
+def test_the_fit_after_the_choice_is_told(cli: Cli, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("mre_core.cli.progress.EVERY", 0.0)
+    files = [write_csv(tmp_path / f"{r.name}.csv", r) for r in campaign((0.0, 1.0, 2.0))]
+    pattern = ["--name-pattern", "{amplitude}mm{current}A"]
+    status, _, err = cli("laws", *files, "--model", "kelvin_voigt", *pattern)
+    told = [line for line in err.splitlines() if "reading" not in line]
+    assert status == 0
+    assert "choosing laws, round 1: 0 of " in told[0]
+    assert told[-1] == "mre-core: fitting the laws chosen: 0 of 1"
+
+
 def test_damper_between_its_currents(cli: Cli, real_data: Path, tmp_path: Path) -> None:
     files = sorted((real_data / "mr-damper-usm").glob("5mm3Hz*.csv"))
     arguments: list[str | Path] = [
