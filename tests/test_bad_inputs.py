@@ -61,7 +61,7 @@ def test_a_pipe_is_not_waited_for(cli: Cli, tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "a.csv")
     status, out, err = cli("inspect", tmp_path / "a.csv")
     assert (status, out) == (2, "")
-    assert "a.csv: is no regular file" in err
+    assert "a.csv: is no regular file, wanted a regular file: write it out first" in err
 
 
 def test_a_link_to_itself(cli: Cli, tmp_path: Path) -> None:
@@ -85,6 +85,15 @@ def test_the_surroundings_stop_no_command(tmp_path: Path) -> None:
     )
     assert (run.returncode, run.stderr) == (0, "")
     assert list((tmp_path / "new").glob("*.png"))
+
+
+def test_the_surroundings_stay_as_they_are(cli: Cli, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("MPLBACKEND", "nonsense")
+    assert cli("inspect", "none.csv")[0] == 2
+    assert os.environ["MPLBACKEND"] == "nonsense"
+    monkeypatch.delenv("MPLBACKEND")
+    assert cli("inspect", "none.csv")[0] == 2
+    assert "MPLBACKEND" not in os.environ
 
 
 def test_a_null_byte_in_a_name(cli: Cli, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

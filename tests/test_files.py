@@ -38,6 +38,14 @@ TEXTS: dict[str, Callable[[Recording], bytes]] = {
     "units row in brackets, and labels": lambda r: text(
         r, "Time\tDisp\tForce\nCh 1\tCh 2\tCh 3\n[s]\t[mm]\t[N]", separator="\t"
     ).encode(),
+    "a preamble wider than any table": lambda r: (
+        "# config: "
+        + ",".join(map(str, range(1500)))
+        + "\nwords,"
+        + ",".join("ab" * 1500)
+        + "\n"
+        + text(r, "time_s,disp_mm,force_N")
+    ).encode(),
     "GBK": lambda r: ("试验,隔震支座\n" + text(r, "时间(s),位移(mm),力(kN)", scale=1e3)).encode("gbk"),
     "GBK, full brackets": lambda r: text(r, "时间（s）,位移（mm）,力（N）").encode("gbk"),
     "UTF-8 with a mark": lambda r: text(r, "Zeit / s;Weg / mm;Kraft / N", separator=";").encode("utf-8-sig"),

@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 import pyarrow as pa
 import pytest
+from rig import force_of
 
 masked: Any = np.ma.MaskedArray
 
@@ -172,3 +173,10 @@ def test_a_mask_that_hides_nothing() -> None:
     columns = {"time_s": TIME, "displacement_mm": DISP, "force_N": FORCE}
     made = mre_core.from_dataframe(OtherFrame({name: masked(one) for name, one in columns.items()}))
     np.testing.assert_array_equal(made.force, FORCE)
+
+
+def test_a_column_called_as_arrow_calls_its_own() -> None:
+    found = mre_core.from_dataframe(frame(column_names=["x"] * N, columns=["y"] * N))
+    np.testing.assert_array_equal(force_of(found), FORCE)
+    table = pa.Table.from_pandas(frame())
+    np.testing.assert_array_equal(force_of(mre_core.from_dataframe(table)), FORCE)

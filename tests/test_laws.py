@@ -437,6 +437,17 @@ def test_command(cli: Cli, tmp_path: Path) -> None:
         assert not (tmp_path / "new").exists()
 
 
+def test_the_fit_after_the_choice_is_told(cli: Cli, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("mre_core.cli.progress.EVERY", 0.0)
+    files = [write_csv(tmp_path / f"{r.name}.csv", r) for r in campaign((0.0, 1.0, 2.0))]
+    pattern = ["--name-pattern", "{amplitude}mm{current}A"]
+    status, _, err = cli("laws", *files, "--model", "kelvin_voigt", *pattern)
+    told = [line for line in err.splitlines() if "reading" not in line]
+    assert status == 0
+    assert "choosing laws, round 1: 0 of " in told[0]
+    assert told[-1] == "mre-core: fitting the laws chosen: 0 of 1"
+
+
 def test_damper_between_its_currents(cli: Cli, real_data: Path, tmp_path: Path) -> None:
     files = sorted((real_data / "mr-damper-usm").glob("5mm3Hz*.csv"))
     arguments: list[str | Path] = [
@@ -513,6 +524,18 @@ def test_laws_are_chosen_from_changing_currents_alone() -> None:
     assert [row["recording"] for row in content] == ["sweep 0", "sweep 1", "sweep 2"]
 
 
+@pytest.mark.parametrize("names", [("", "", ""), ("a", "a", "a (2)")])
+def test_sweeps_of_one_name_are_told_apart(names: tuple[str, ...]) -> None:
+    sweeps = [
+        Recording(r.time, r.displacement, force_of(r), velocity=r.velocity, current=r.current, name=name)
+        for r, name in zip(under_sweeps((2.0, 1.3, 0.9)), names, strict=True)
+    ]
+    found = mre_core.fit_laws(sweeps, "sinh", {"alpha": "linear"}, ["c0", "k0", "beta", "F0"])
+    assert found.left_out is not None
+    assert len(found.by_level) == len(found.left_out.by_level) == 3
+    assert next(iter(found.by_level)) == (f"{names[0]} (1)" if names[0] else "recording 1")
+
+
 def test_one_changing_current_chooses_nothing_and_says_so() -> None:
     (sweep,) = under_sweeps((1.3,))
     found = mre_core.fit_laws(sweep, "sinh")
@@ -550,6 +573,16 @@ def test_a_bound_that_holds_a_value_is_named() -> None:
     assert found.to_dict()["words"] == list(found.words)
     limit = mre_core.fit_laws(campaign((0.0, 1.0, 2.0)), "sinh", {"k0": "constant"}, bounds={"k0": (0, 0)})
     assert {row["note"] for row in limit.rows() if row["parameter"] == "k0"} == {""}  # somebody wants it
+
+
+def test_equal_bounds_hold_a_shape() -> None:
+    for laws in ({"alpha": "saturating", "beta": "linear"}, {"alpha": "linear"}):
+        found = mre_core.fit_laws(campaign(), "sinh", laws, ["c0", "F0"], bounds={"beta": (0.3, 0.3)})
+        rows = [row for row in found.rows() if row["parameter"] == "beta"]
+        assert rows
+        assert all((row["value"], row["low"], row["note"]) == (0.3, None, "") for row in rows)
+    bent = mre_core.fit_laws(campaign(), "sinh", LAWS, ["beta", "F0"], bounds={"beta": (0.3, 0.3)})
+    assert bent.model.laws["alpha"].law.saturation == pytest.approx(0.8, rel=0.1)
 
 
 def test_the_figure_and_the_table_have_the_same_intervals() -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from mre_core import InputError
 from mre_core.cli.arguments import spread
 from rig import BOUC_WEN, SINH, Cli, command, everything_in, made_of, motion, record, write_csv
 
@@ -27,6 +28,13 @@ def test_recordings_take_several_files() -> None:
         *("study", "--recordings", "a.csv", "--recordings", "b.csv", "--seed", "2"),
         *("--map", "force=F", "--map", "time=t"),
     ]
+
+
+def test_an_empty_value_is_told_from_one_that_ends_in_an_equals_sign() -> None:
+    assert spread(["inspect", "a.csv", "--read=separator=="]) == ["inspect", "a.csv", "--read=separator=="]
+    assert spread(["inspect", "--name-pattern={current}="]) == ["inspect", "--name-pattern={current}="]
+    with pytest.raises(InputError, match="--out is empty"):
+        spread(["inspect", "--out="])
 
 
 def test_a_campaign_of_ones_own(cli: Cli, tmp_path: Path) -> None:

@@ -17,7 +17,6 @@ from .findings import (
     comparison,
     effect_of,
     hidden_effects,
-    labels,
     levels_of,
     missing_effects,
     next_test_of,
@@ -25,7 +24,7 @@ from .findings import (
     rms_of_force,
     unknown_of,
 )
-from .grouping import check_once, each_of, group_by_current
+from .grouping import check_once, each_of, group_by_current, labels
 from .minimise import draw_seed
 from .model import SIMULATED, Level, Model, simulate
 from .suitable import check_recordings
@@ -147,7 +146,7 @@ def diagnose(
     if raw["effects"]:
         in_order = sorted(raw["effects"], key=lambda effect: int(effect["place"]))
         final, last = model(raw["final_levels"], [*raw["final_base_effects"], *in_order]), after
-    names = labels(everything)
+    names = labels([recording.name for recording in everything])
     return Diagnosis(
         base=name,
         verdict=raw["verdict"],

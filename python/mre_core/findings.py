@@ -1,6 +1,5 @@
 """What the core says of a diagnosis, as the objects that a person gets."""
 
-from collections import Counter
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -16,13 +15,6 @@ from .model import Level
 Series = NDArray[np.float64]
 Raw = Mapping[str, Any]
 """An object of the core's JSON."""
-
-
-def labels(recordings: Sequence[Recording]) -> list[str]:
-    """Names of recordings, made different from each other."""
-    names = [r.name or f"recording {i}" for i, r in enumerate(recordings, 1)]
-    count = Counter(names)
-    return [name if count[name] == 1 else f"{name} ({i})" for i, name in enumerate(names, 1)]
 
 
 def rms_of_force(recordings: Sequence[Recording]) -> float:

@@ -32,8 +32,10 @@ def frame_headers(df: Any, source: str | None) -> dict[str, Any]:
     InputError
         There are no columns, or two of the same name.
     """
-    # A table of pyarrow has its columns themselves under the other name.
-    columns = getattr(df, "column_names", getattr(df, "columns", None))
+    # A table of pyarrow has its columns themselves under the other name. The type is asked, because a frame
+    # of pandas has its columns as attributes: one may be called column_names.
+    known = hasattr(df, "columns") and not hasattr(type(df), "column_names")
+    columns = getattr(df, "columns" if known else "column_names", None)
     if columns is None or callable(columns):
         raise InputError(f"found a {type(df).__name__}", file=source, value=df, wanted="a data frame")
     labels = list(columns)

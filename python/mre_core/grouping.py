@@ -1,5 +1,6 @@
 """Recordings that share their parameters."""
 
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from hashlib import blake2b
 
@@ -58,6 +59,14 @@ def check_once(recordings: Sequence[Recording]) -> None:
     """Refuse a recording that is there twice, under whatever name."""
     for _ in each_once(recordings):
         pass
+
+
+def labels(names: Sequence[str]) -> list[str]:
+    """Names of recordings, made different from each other."""
+    given = [name or f"recording {i}" for i, name in enumerate(names, 1)]
+    count = Counter(given)
+    made = [name if count[name] == 1 else f"{name} ({i})" for i, name in enumerate(given, 1)]
+    return made if len(set(made)) == len(made) else labels(made)  # one is called as another is made
 
 
 def group_by_current(recordings: Sequence[Recording]) -> list[tuple[float | None, list[Recording]]]:

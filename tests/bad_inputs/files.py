@@ -37,10 +37,11 @@ FILES = {
     ),
     "a folder": Command(["identify", "/proc", *IDENTIFY[2:]], ["/proc: is a folder without recordings"]),
     "a device": Command(
-        ["identify", "/dev/zero", *IDENTIFY[2:]], ["/dev/zero: is no regular file", "a file"]
+        ["identify", "/dev/zero", *IDENTIFY[2:]], ["/dev/zero: is no regular file", "write it out"]
     ),
     "too many columns": bad_file(
-        headed(",".join(f"c{i}" for i in range(1001))), "line 1: has 1001 columns", "at most 1000"
+        "\n".join([HEADER + ",c" * 998, *(row + ",1" * 998 for row in GOOD)]).encode(),
+        *("line 1: has 1001 columns", "at most 1000"),
     ),
     "missing file": Command(["identify", "b.csv", *IDENTIFY[2:]], ["b.csv: there is no such file"]),
     "second file": Command(

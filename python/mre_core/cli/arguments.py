@@ -37,7 +37,7 @@ def spread(arguments: Sequence[str]) -> list[str]:
     out: list[str] = []
     option = ""
     for argument in arguments:
-        if not argument or (argument.startswith("--") and argument.endswith("=")):
+        if not argument or (argument.startswith("--") and argument.find("=") == len(argument) - 1):
             what = f"{argument.removesuffix('=')} is empty" if argument else "an argument is empty"
             raise InputError(what, wanted="a value (a variable of the shell may not be set)")
         role = argument.partition("=")[0]

@@ -108,8 +108,10 @@ def laws(
         with steps("fitting", quiet=quiet) as on_step:
             settings: dict[str, Any] = {"over": over, "bounds": read_bounds(bounds)}
             settings |= {key: value for key, value in options.items() if value is not None}
-            settings["on_trial"] = lambda number, done, count: on_step(
-                f"choosing laws, round {number}", done, count
+            settings["on_trial"] = lambda number, done, count: (
+                on_step(f"choosing laws, round {number}", done, count)
+                if done < count
+                else on_step("fitting the laws chosen", 0, 1)
             )
             kept = _Again(lambda again: _others(read(again=again), over, predict))
             found = fit_laws(kept, model, _laws(laws), shared, **settings)

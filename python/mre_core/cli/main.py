@@ -8,8 +8,8 @@ import logging
 import os
 import sys
 import warnings
-from collections.abc import Sequence
-from contextlib import suppress
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
 from io import TextIOWrapper
 from typing import TextIO
 
@@ -63,8 +63,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command and return its exit status."""
     given = list(sys.argv[1:] if arguments is None else arguments)
     try:
-        _settle()
-        status = _run(given)
+        with _settled():
+            status = _run(given)
         print(end="", flush=True)
         return status
     except BrokenPipeError:  # whoever read the output has seen enough
@@ -76,17 +76,23 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _fail(f"the output cannot be written: {error.strerror}, wanted room for it", 1)
 
 
-def _settle() -> None:
+@contextmanager
+def _settled() -> Iterator[None]:
     """Take from the surroundings what would stop a command after its work."""
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):  # one that knows few letters shows a question mark
             stream.reconfigure(errors="replace")
-    os.environ["MPLBACKEND"] = "agg"  # figures go to files
-    if os.path.lexists("matplotlibrc"):  # of a stranger's folder: it could ask for LaTeX
-        logging.getLogger("matplotlib").setLevel(logging.ERROR)
-        import matplotlib
+    backend = os.environ.pop("MPLBACKEND", None)  # figures go to files: it only could be wrong
+    try:
+        if os.path.lexists("matplotlibrc"):  # of a stranger's folder: it could ask for LaTeX
+            logging.getLogger("matplotlib").setLevel(logging.ERROR)
+            import matplotlib
 
-        matplotlib.rcdefaults()
+            matplotlib.rcdefaults()
+        yield
+    finally:
+        if backend is not None:
+            os.environ["MPLBACKEND"] = backend
 
 
 def _run(given: list[str]) -> int:

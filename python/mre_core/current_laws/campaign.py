@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from .._core import Recording
 from ..errors import InputError, shown
-from ..grouping import each_once, same_level
+from ..grouping import each_once, labels, same_level
 from ..stored import number
 from .factors import DirectFactor, Samples, SinhFactor, triangle
 from .law import Dependence, Law
@@ -84,16 +84,13 @@ class Changing:
     samples: Samples
     series: Array
     """What the laws run over, one value a sample."""
+    label: str
+    """Name of the recording, or what tells it from others of that name."""
 
     @property
     def currents(self) -> tuple[float, ...]:
         """Lowest and highest."""
         return (float(self.series.min()), float(self.series.max()))
-
-    @property
-    def label(self) -> str:
-        """Name of the recording."""
-        return str(self.samples.recording.name)
 
     @property
     def visited(self) -> int:
@@ -196,7 +193,8 @@ def read_campaign(
         bound of no parameter, or one that is reversed.
     """
     steady: list[Steady] = []
-    changing: list[Changing] = []
+    varying: list[tuple[int, Samples, Array]] = []
+    names: list[str] = []
     farthest = fastest = strongest = weights = 0.0
     samples = 0
     currents: set[float | None] = set()
@@ -213,9 +211,10 @@ def read_campaign(
         weights += weight * (last - first)
         series = series_of(recording, over)
         if len(series) > 1:
-            changing.append(Changing(structure, Samples(structure, recording, weight), series))
+            varying.append((len(names), Samples(structure, recording, weight), series))
         else:
             _level(steady, float(series[0]), structure).add(recording, weight)
+        names.append(recording.name)
         if over != "current":
             currents.add(_steady_current(recording, over))
     if len(currents) > 1:
@@ -223,6 +222,8 @@ def read_campaign(
         raise InputError(f"recordings at several currents ({found})", wanted=f"one, for laws over {over}")
     if not samples:
         raise InputError("recordings are an empty list", wanted="at least one recording")
+    called = labels(names)
+    changing = [Changing(structure, part, series, called[i]) for i, part, series in varying]
     bounds = {name: _pair(name, pair, structure) for name, pair in bounds.items()}
     limits = structure.limits(strongest)
     held = [p.factor for p in steady if isinstance(p.factor, DirectFactor)]

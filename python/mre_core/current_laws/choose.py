@@ -24,7 +24,7 @@ _ENOUGH = 1e-6
 Independent = Callable[[Joint], float]
 """Tells how many independent samples the noise around a fit amounts to."""
 OnTrial = Callable[[int, int, int], object]
-"""Called with (round from 1, trials done in it, trials in it) before each trial."""
+"""Called with (round from 1, trials done in it, trials in it) before each trial, and after the last."""
 
 
 @dataclass(frozen=True)
@@ -139,6 +139,8 @@ def choose(
             trial = leave_one_current_out(campaign, kinds | {name: kind}, start)
             if trial is not None:
                 tried.append(trial)
+        if on_trial is not None:
+            on_trial(number, len(changes), len(changes))
         trials += tried
         least = min((trial.score for trial in tried), default=best.score)
         if least < _WORTH * best.score:

@@ -127,7 +127,8 @@ def fit_laws(
     weights : {"samples", "force"}
         Every sample counts the same, or every recording by its mean squared force.
     on_trial : callable, optional
-        Called with (round from 1, trials done in it, trials in it) while laws are chosen.
+        Called with (round from 1, trials done in it, trials in it) while laws are chosen; all are done
+        while the laws of the round, which may be the last, are fitted.
 
     Returns
     -------

@@ -69,28 +69,33 @@ def fit(
     """Search shapes and saturation currents, with the coefficients solved for each.
 
     A saturating law without saturation current is given one. Shapes are searched near those of `start`,
-    or over the whole box without one; those in `held` are kept. The last descent ends with a step
-    that lowers the squares by less than the share `precision`.
+    or over the whole box without one; those in `held` are kept, and so are those whose bounds are equal.
+    The last descent ends with a step that lowers the squares by less than the share `precision`.
     """
     from scipy.optimize import minimize
 
     variables = _Variables(campaign, laws, held or {})
     if not len(variables.low):
         return solve(campaign, laws, held or {})
-    best = variables.first(campaign, start)
     width = variables.high - variables.low
+    free = width > 0
+    if not free.any():
+        return variables.joint(variables.low)
+    best = variables.first(campaign, start)
 
-    def cost(share: Array) -> float:
-        return variables.joint(variables.low + share * width).squares
+    def joint(share: Array) -> Joint:
+        point = variables.low.copy()
+        point[free] += share * width[free]
+        return variables.joint(point)
 
     found: Any = minimize(
-        cost,
-        (best - variables.low) / width,
+        lambda share: joint(share).squares,
+        (best - variables.low)[free] / width[free],
         method="L-BFGS-B",
-        bounds=[(0, 1)] * len(best),
-        options={"eps": _STEP, "ftol": precision, "gtol": 0.0, "maxfun": _EVALUATIONS * len(best)},
+        bounds=[(0, 1)] * int(free.sum()),
+        options={"eps": _STEP, "ftol": precision, "gtol": 0.0, "maxfun": _EVALUATIONS * int(free.sum())},
     )
-    last = variables.joint(variables.low + found.x * width)
+    last = joint(found.x)
     return min((last, variables.joint(best)), key=lambda joint: joint.squares)
 
 

@@ -5,6 +5,7 @@ from stat import S_ISDIR, S_ISREG
 from typing import Any, Final
 
 from ..errors import InputError
+from .pipes import is_open_pipe, read_pipe
 
 MOST_BYTES: Final = 2 * 2**30
 MOST_VALUES: Final = 2 * 10**8
@@ -31,13 +32,17 @@ def read_bytes(path: Path) -> bytes:
     Raises
     ------
     InputError
-        It is missing, not readable, no regular file or too large.
+        It is missing, not readable, too large, or neither a regular file nor a pipe that is open.
     """
     check_file(path)
     try:
-        return path.read_bytes()
+        if not is_open_pipe(path, path.stat().st_mode):
+            return path.read_bytes()
+        content = read_pipe(path, MOST_BYTES)
     except OSError as error:
         raise _unreadable(path, error) from None
+    _check_size(len(content), path)
+    return content
 
 
 def check_file(path: Path) -> None:
@@ -51,7 +56,7 @@ def check_file(path: Path) -> None:
     Raises
     ------
     InputError
-        It is missing, not readable, no regular file or too large.
+        It is missing, not readable, too large, or neither a regular file nor a pipe that is open.
     """
     if not is_text(str(path)):
         wanted = "another name: it goes into results"
@@ -61,18 +66,18 @@ def check_file(path: Path) -> None:
         if S_ISDIR(status.st_mode):
             wanted = f"one of the files in it, such as {path / '*.csv'}"
             raise InputError("is a folder", file=str(path), wanted=wanted)
+        if is_open_pipe(path, status.st_mode):
+            return
         if not S_ISREG(status.st_mode):  # a pipe may wait for ever, and a device never end
-            raise InputError("is no regular file", file=str(path), wanted="a file that is written")
+            wanted = "a regular file: write it out first"
+            raise InputError("is no regular file", file=str(path), wanted=wanted)
         with path.open("rb"):
             pass
     except FileNotFoundError:
         raise InputError(f"there is no such file{_nearest(path)}", file=str(path)) from None
     except OSError as error:
         raise _unreadable(path, error) from None
-    size = status.st_size
-    if size > MOST_BYTES:
-        wanted = f"at most {MOST_BYTES / 2**30:.0f} GiB (mre_core.read_chunks reads CSV of any size)"
-        raise InputError(f"has {size / 2**30:.1f} GiB", file=str(path), value=size, wanted=wanted)
+    _check_size(status.st_size, path)
 
 
 def is_text(name: str) -> bool:
@@ -174,6 +179,12 @@ def check_sheet(rows: int, columns: int, cells: int, file: str) -> None:
     ):
         if found > most:
             raise InputError(f"has a sheet of {found} {what}", file=file, wanted=f"at most {most} {what}")
+
+
+def _check_size(size: int, path: Path) -> None:
+    if size > MOST_BYTES:
+        wanted = f"at most {MOST_BYTES / 2**30:.0f} GiB (mre_core.read_chunks reads CSV of any size)"
+        raise InputError(f"has {size / 2**30:.1f} GiB", file=str(path), value=size, wanted=wanted)
 
 
 def _nearest(path: Path) -> str:

@@ -106,21 +106,32 @@ def find_table(
     rows = _rows(lines, dialect)
     if options.header is not None and options.header > len(lines):
         raise InputError(f"has {len(lines)} lines", file=file, wanted=f"a header in line {options.header}")
-    for i, line in enumerate(lines):
-        if len(line) > MOST_COLUMNS and (width := len(dialect.cells(line))) > MOST_COLUMNS:
-            found = f"has {width} columns"
-            raise InputError(found, file=file, line=i + 1, wanted=f"at most {MOST_COLUMNS} columns")
     block = find_block(rows, None if options.header is None else options.header - 1)
     if block is None:
         raise NotesError("no rows of numbers", file=file, wanted=f"a header such as {_EXAMPLE} and data")
+    _check_width(block, rows, lines, file, dialect)
     return block, rows, dialect
 
 
 def _rows(lines: list[str], dialect: Dialect) -> Rows:
-    def names(i: int, width: int) -> list[str]:
-        return dialect.names(lines[i].lstrip().removeprefix("#"), width)
+    """Rows of cells; those that no table has are not looked at: a preamble may have a million."""
 
-    return Rows(len(lines), lambda i: dialect.cells(lines[i]), dialect.is_number, names)
+    def cells(i: int) -> list[str]:
+        return dialect.cells(lines[i])[: MOST_COLUMNS + 1]
+
+    def names(i: int, width: int) -> list[str]:
+        return dialect.names(lines[i].lstrip().removeprefix("#"), width)[: MOST_COLUMNS + 1]
+
+    return Rows(len(lines), cells, dialect.is_number, names)
+
+
+def _check_width(block: Block, rows: Rows, lines: list[str], file: str, dialect: Dialect) -> None:
+    """Refuse a table wider than any rig writes; what stands around it may be as wide as it likes."""
+    data = (i for i in range(block.first, block.stop) if len(lines[i]) > MOST_COLUMNS and rows.is_data(i))
+    for i in data if block.header is None else (block.header, *data):
+        if (width := len(dialect.cells(lines[i]))) > MOST_COLUMNS:
+            wanted = f"at most {MOST_COLUMNS} columns"
+            raise InputError(f"has {width} columns", file=file, line=i + 1, wanted=wanted)
 
 
 def _notes(block: Block) -> list[str]:

@@ -9,8 +9,7 @@ import numpy as np
 
 from .._core import Recording
 from ..errors import InputError
-from ..findings import labels
-from ..grouping import each_of
+from ..grouping import each_of, labels
 from ..model import Model, simulate
 from .cycles import find_cycles
 from .figures import CONVENTIONS, QUANTITIES, Convention, Loop, measure_loop
@@ -131,11 +130,12 @@ def loops(
     if convention not in CONVENTIONS:
         raise InputError(f"the convention is {convention!r}", wanted=" or ".join(CONVENTIONS))
     everything = list(each_of(recordings))
+    names = labels([recording.name for recording in everything])
     if isinstance(model, str | os.PathLike):
         model = Model.load(model)
     return [
         _measure(recording, name, model, convention)
-        for recording, name in zip(everything, labels(everything), strict=True)
+        for recording, name in zip(everything, names, strict=True)
     ]
 
 

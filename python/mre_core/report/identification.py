@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from ..describe import describe
-from ..findings import labels
+from ..grouping import labels
 from ..model import simulate
 from ..output import finite
 from .chart import chart
@@ -41,7 +41,8 @@ def report_identification(
     """
     content = finite(describe(found, profiles, bootstraps))
     fitted = {fit.recording for fit in found.fits}
-    pairs = [pair for pair in zip(labels(recordings), recordings, strict=True) if pair[1].name in fitted]
+    names = labels([recording.name for recording in recordings])
+    pairs = [pair for pair in zip(names, recordings, strict=True) if pair[1].name in fitted]
     convergence = {
         _title(found, i): (list(range(len(run.history))), run.history["best"].tolist())
         for i, run in enumerate(found.runs)
