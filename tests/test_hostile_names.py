@@ -71,9 +71,9 @@ def test_names_of_columns(cli: Cli, tmp_path: Path, sinh_4mm: Recording) -> None
 def test_names_of_groups_leave_no_folder(cli: Cli, tmp_path: Path, sinh_4mm: Recording) -> None:
     assert sinh_4mm.force is not None
     with h5py.File(tmp_path / "a.h5", "w") as file:
-        for name in ("..", "...", "\x1b[2J"):
+        for i, name in enumerate(("..", "...", "\x1b[2J"), 1):
             group = file.create_group(f"x/{name}/y")
-            columns = (sinh_4mm.time, sinh_4mm.displacement, sinh_4mm.force)
+            columns = (sinh_4mm.time, sinh_4mm.displacement, i * sinh_4mm.force)
             for role, values in zip(("time_s", "displacement_mm", "force_N"), columns, strict=True):
                 group[role] = np.asarray(values)
     assert len(load_all(tmp_path / "a.h5")) == 3

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mre_core import Dependence, ExtrapolationWarning, InputError, Law, Level, Model, Recording
+from mre_core import CopyWarning, Dependence, ExtrapolationWarning, InputError, Law, Level, Model, Recording
 from mre_core.cli.laws import _Again
 from mre_core.current_laws.factors import Samples, SinhFactor
 from mre_core.current_laws.plots import plot_laws
@@ -554,12 +554,12 @@ def test_one_changing_current_chooses_nothing_and_says_so() -> None:
         mre_core.fit_laws(switched, "sinh", {"alpha": "saturating"}, ["beta"])
 
 
-def test_a_copy_under_another_name_is_refused() -> None:
+def test_a_copy_under_another_name_is_pointed_out() -> None:
     first = campaign((0.0, 1.0))
     copy = Recording(first[0].time, first[0].displacement, first[0].force, current=0.0, name="copy")
     for work in (mre_core.fit_laws, mre_core.identify, mre_core.diagnose):
-        with pytest.raises(InputError, match="a recording is given twice, as '3mm0A' and as 'copy'"):
-            work([*first, copy], "sinh")
+        with pytest.warns(CopyWarning, match="^'copy' holds the same as '3mm0A': it counts twice"):
+            work([*first, copy], "kelvin_voigt")
 
 
 def test_a_bound_that_holds_a_value_is_named() -> None:

@@ -295,7 +295,10 @@ def test_light_dark_and_paper(browser: Tab, diagnosis: Path) -> None:
 
 
 def test_an_identification(browser: Tab, tmp_path: Path) -> None:
-    recordings = [rig_record(made_of("sinh", SINH), motion(), noise=0.5, name=name) for name in ("a", "b")]
+    recordings = [
+        rig_record(made_of("sinh", SINH), motion(), noise=0.5, seed=seed, name=name)
+        for seed, name in enumerate(("a", "b"))
+    ]
     found = mre_core.identify(recordings, "sinh", optimizer="mafsa", seed=1, max_iterations=5)
     path = tmp_path / "report.html"
     path.write_text(report_identification(found, recordings), encoding="utf-8")

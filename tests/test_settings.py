@@ -68,8 +68,8 @@ def test_other_commands_take_settings(cli: Cli, tmp_path: Path) -> None:
 def test_tables_of_commands_and_paths(cli: Cli, tmp_path: Path, sinh_4mm: Recording) -> None:
     folder = tmp_path / "deep"
     folder.mkdir()
-    for name in ("a.csv", "b.csv"):
-        write_csv(folder / name, sinh_4mm)
+    for name, times in (("a.csv", 1.0), ("b.csv", 1.1)):
+        write_csv(folder / name, sinh_4mm, scale=(1, 1, times))
     text = """
     recordings = ["*.csv"]
     fish = 5

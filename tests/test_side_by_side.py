@@ -97,7 +97,12 @@ def everything(recording: Recording) -> dict[str, Any]:
         *(mre_core.bootstrap(problem, x, 3, seed=1), mre_core.certificate(problem, found.result)),
         *(mre_core.loops(recording)[0], found.result.reason, mre_core.diagnose(recordings, "sinh", seed=1)),
         *(mre_core.InputError("a", file="f", line=3, wanted="b"), MreError("a")),
-        *(mre_core.UnitAssumedWarning("a"), mre_core.SkippedWarning("a"), mre_core.ExtrapolationWarning("a")),
+        *(
+            mre_core.UnitAssumedWarning("a"),
+            mre_core.SkippedWarning("a"),
+            mre_core.CopyWarning("a"),
+            mre_core.ExtrapolationWarning("a"),
+        ),
     ]
     return {type(one).__name__: one for one in objects}
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from .diagnose import diagnose
     from .diagnosis import Diagnosis
     from .effects import Effect
-    from .errors import ExtrapolationWarning, InputError, SkippedWarning, UnitAssumedWarning
+    from .errors import CopyWarning, ExtrapolationWarning, InputError, SkippedWarning, UnitAssumedWarning
     from .fits import exact, hybrid
     from .identify import Identification, identify
     from .inspection import Inspection, inspect
@@ -36,6 +36,7 @@ __all__ = [
     "AskTell",
     "Bootstrap",
     "Certificate",
+    "CopyWarning",
     "Dependence",
     "Diagnosis",
     "Effect",
@@ -99,7 +100,7 @@ _HOMES = {
     "diagnose": "diagnose",
     "diagnosis": "Diagnosis",
     "effects": "Effect",
-    "errors": "ExtrapolationWarning InputError SkippedWarning UnitAssumedWarning",
+    "errors": "CopyWarning ExtrapolationWarning InputError SkippedWarning UnitAssumedWarning",
     "fits": "exact hybrid",
     "identify": "Identification identify",
     "inspection": "Inspection inspect",

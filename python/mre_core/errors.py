@@ -22,6 +22,10 @@ class SkippedWarning(UserWarning):
     """A file of a folder, or a table of a file, holds no recording and is passed over."""
 
 
+class CopyWarning(UserWarning):
+    """A recording holds what another one holds, under another name."""
+
+
 class ExtrapolationWarning(UserWarning):
     """A simulation leaves the range in which the model was identified."""
 

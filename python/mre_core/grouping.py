@@ -1,5 +1,6 @@
 """Recordings that share their parameters."""
 
+import warnings
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from hashlib import blake2b
@@ -7,7 +8,7 @@ from hashlib import blake2b
 import numpy as np
 
 from ._core import Recording
-from .errors import InputError, shown
+from .errors import CopyWarning, InputError, shown
 
 
 def each_of(recordings: Recording | Iterable[Recording]) -> Iterator[Recording]:
@@ -39,24 +40,37 @@ def content_of(recording: Recording) -> bytes:
 
 
 def each_once(recordings: Recording | Iterable[Recording]) -> Iterator[Recording]:
-    """Go through recordings as they come, and refuse one that is there twice, under whatever name.
+    """Go through recordings as they come, and warn of one that is there twice under two names.
 
-    It would count as more than was measured. A force that is zero throughout is the same in any recording.
+    A force that is zero throughout is the same in any recording.
+
+    Warns
+    -----
+    CopyWarning
+        A recording holds what another one holds.
     """
     seen: dict[bytes, str] = {}
-    for recording in each_of(recordings):
+    for place, recording in enumerate(each_of(recordings), 1):
         content = content_of(recording)
+        name = recording.name or f"recording {place}"
         if (other := seen.get(content)) is not None:
-            names = " and as ".join(f"'{name}'" for name in dict.fromkeys((other, recording.name)) if name)
-            where = f", as {names}" if names else ""
-            raise InputError(f"a recording is given twice{where}", wanted="each recording once")
-        if recording.force is not None and recording.force.any():
-            seen[content] = recording.name
+            text = f"'{name}' holds the same as '{other}': it counts twice, as more than was measured"
+            warnings.warn(text, CopyWarning, stacklevel=2)
+        elif recording.force is not None and recording.force.any():
+            seen[content] = name
         yield recording
 
 
 def check_once(recordings: Sequence[Recording]) -> None:
-    """Refuse a recording that is there twice, under whatever name."""
+    """Refuse a recording that is there twice, and warn of one that is under two names.
+
+    Warns
+    -----
+    CopyWarning
+        A recording holds what another one holds.
+    """
+    if len({id(recording) for recording in recordings}) < len(recordings):
+        raise InputError("a recording is given twice", wanted="each recording once")
     for _ in each_once(recordings):
         pass
 
