@@ -88,7 +88,10 @@ impl<'a> Assembly<'a> {
         let flexibility = self.flexibility(&shapes);
         let better = |(r, recording): (usize, &Arc<Recording>)| {
             let given = self.columns(r, &shapes).force(&own);
-            flexibility.map_or_else(|| given.clone(), |f| nearer(recording, &self.whole[r], &given, f))
+            match flexibility {
+                Some(flexibility) => nearer(recording, &self.whole[r], &given, flexibility),
+                None => given,
+            }
         };
         let whole = self.campaign.recordings().iter().enumerate().map(better).collect();
         Self { whole: Arc::new(whole), known: None, ..self.clone() }
