@@ -53,7 +53,7 @@ def test_an_effect_that_is_ruled_out_is_not_named() -> None:
     found = mre_core.diagnose(campaign(), seed=1, without=["maxwell_relaxation"])
     assert "maxwell_relaxation" not in {e.id for e in found.effects}
     assert found.verdict != "adequate"
-    with pytest.raises(InputError, match="without names 'maxwel'"):
+    with pytest.raises(InputError, match="without is 'maxwel'"):
         mre_core.diagnose(campaign(), without=["maxwel"])
 
 

@@ -140,7 +140,7 @@ WRONG: dict[str, tuple[str, dict[str, Any]]] = {
     "time_limit is NaN: a number of seconds above 0": ("hybrid", {"time_limit": np.nan}),
     "target is NaN: a number": ("afsa", {"target": np.nan}),
     "x0 is NaN: finite numbers": ("hybrid", {"x0": [1.0, np.nan, 1.0, 0.1, 0.0]}),
-    "threads is 0: a whole number from 1": ("exact", {"threads": 0}),
+    "threads is 0, wanted a whole number from 1": ("exact", {"threads": 0}),
     "bound of beta is 0.5:0.1: the lower bound has to be below": ("exact", {"bounds": {"beta": (0.5, 0.1)}}),
     "bound of beta is 0.1:1000: at most 175 1/mm, above": ("exact", {"bounds": {"beta": (0.1, 1000)}}),
     "bound of beta is 0.1:NaN: both bounds have": ("hybrid", {"bounds": {"beta": (0.1, np.nan)}}),

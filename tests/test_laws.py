@@ -280,7 +280,7 @@ def test_over_temperature(tmp_path: Path) -> None:
         mre_core.simulate(model, motion(5.0))
     with pytest.raises(InputError, match=r"recordings at several currents \(0 A, 1 A\), wanted one"):
         mre_core.fit_laws(campaign((0.0, 1.0)), over="amplitude")
-    with pytest.raises(InputError, match="over is 'field', wanted current or temperature or amplitude"):
+    with pytest.raises(InputError, match="over is 'field', wanted one of current, temperature, amplitude"):
         mre_core.fit_laws(recordings, over="field")  # type: ignore[arg-type]
 
 
@@ -347,7 +347,7 @@ def test_no_force_at_all() -> None:
 def test_refused() -> None:
     recordings = campaign((0.0, 1.0))
     for problem, arguments in {
-        "the model is 'x', wanted kelvin_voigt, sinh, bouc_wen": (recordings, "x"),
+        "model is 'x', wanted one of kelvin_voigt, sinh, bouc_wen": (recordings, "x"),
         "a law for 'k9', wanted one of c0, k0, alpha, beta, F0": (recordings, "sinh", {"k9": "linear"}),
         "a law for 'b', wanted one of": (recordings, "sinh", {}, ["b"]),
         "the law of c0 is 'cubic', wanted one of": (recordings, "sinh", {"c0": "cubic"}),

@@ -181,7 +181,9 @@ def test_a_negative_figure_has_a_signed_error() -> None:
 
 
 def test_bad_input() -> None:
-    with pytest.raises(mre_core.InputError, match=r"convention is 'mean', wanted displacement_extremes or"):
+    with pytest.raises(
+        mre_core.InputError, match=r"convention is 'mean', wanted one of displacement_extremes,"
+    ):
         mre_core.loops(motion(), convention="mean")  # type: ignore[arg-type]
     with pytest.raises(mre_core.InputError, match="has no force"):
         mre_core.loops(motion(name="m"))

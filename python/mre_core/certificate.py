@@ -5,7 +5,9 @@ from typing import TYPE_CHECKING
 
 from . import _core
 from ._core import Problem
+from .checks import workers
 from .errors import shown
+from .stored import number
 
 if TYPE_CHECKING:
     from .results import SwarmResult
@@ -67,5 +69,6 @@ def certificate(
 
     if not isinstance(result, SwarmResult):
         raise TypeError(f"result is {shown(result)}: wanted the SwarmResult of an optimizer")
-    lower, gap, certified, evaluations = _core.certify(problem, result.x, tolerance, threads=threads)
+    tolerance = number(tolerance, "tolerance")
+    lower, gap, certified, evaluations = _core.certify(problem, result.x, tolerance, threads=workers(threads))
     return Certificate(tolerance, lower, gap, certified, evaluations)

@@ -83,9 +83,7 @@ def find_columns(
         A role is missing, ambiguous or unknown, a mapped column does not exist, or a unit is wrong.
     """
     found: dict[str, Column] = {}
-    for role, text in mapping("map", map, "role to column").items():
-        if role not in ROLES:
-            raise InputError(f"map names the role '{role}'", file=file, value=role, wanted=", ".join(ROLES))
+    for role, text in check_map(map, file).items():
         if role not in fixed:
             found[role] = _mapped(role, text, headers, file)
     taken: dict[str, str] = {}
@@ -117,6 +115,25 @@ def find_columns(
                 " (mre-core inspect guesses which)",
             )
     return {role: found[role] for role in ROLES if role in found}
+
+
+def check_map(map: Mapping[str, str] | None, file: str | None = None) -> Mapping[str, str]:
+    """Take roles and their columns; None stands for none.
+
+    Raises
+    ------
+    TypeError
+        It is no mapping, or the name of a column is no text.
+    InputError
+        There is no such role.
+    """
+    for role, text in mapping("map", map, "role to column").items():
+        if role not in ROLES:
+            found = f"map names the role {shown(role)}"
+            raise InputError(found, file=file, value=role, wanted=", ".join(ROLES))
+        if not isinstance(text, str):
+            raise TypeError(f"the column of {role} is {shown(text)}: wanted its name")
+    return {} if map is None else map
 
 
 def assumption(columns: Collection[Column], file: str | None = None) -> str | None:

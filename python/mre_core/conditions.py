@@ -52,7 +52,7 @@ def _value(role: str, value: object, file: str | None) -> float:
         if match := _WITH_UNIT.fullmatch(value):
             number, unit = _float(match[1]), match[2]
     elif isinstance(value, Real) and not isinstance(value, bool):
-        number = float(value)
+        number = _float(value)
     if not math.isfinite(number):
         canonical = ROLES[role].unit
         raise InputError(
@@ -66,10 +66,10 @@ def _value(role: str, value: object, file: str | None) -> float:
     return _convert(number, unit, role, file)
 
 
-def _float(text: str) -> float:
+def _float(value: str | Real) -> float:
     try:
-        return float(text)
-    except ValueError:
+        return float(value)
+    except (ValueError, OverflowError):
         return math.nan
 
 
@@ -103,7 +103,7 @@ def conditions_in_name(stem: str, pattern: str, *, file: str | None = None) -> d
     InputError
         The pattern is malformed or does not match.
     """
-    behind = _fields(pattern, file)
+    behind = check_pattern(pattern, file)
     regex = "".join(
         re.escape(literal) + (f"(?P<{field}>{_NUMBER})" if field else "")
         for literal, field in _parts(pattern, file)
@@ -126,8 +126,18 @@ def conditions_in_name(stem: str, pattern: str, *, file: str | None = None) -> d
     return values
 
 
-def _fields(pattern: str, file: str | None) -> dict[str, str]:
-    """Fields of a pattern with the text behind each, checked."""
+def check_pattern(pattern: str, file: str | None = None) -> dict[str, str]:
+    """Take the fields of a pattern, with the text behind each.
+
+    Raises
+    ------
+    TypeError
+        It is no text.
+    InputError
+        It is malformed.
+    """
+    if not isinstance(pattern, str):
+        raise TypeError(f"name_pattern is {shown(pattern)}: wanted a text with fields in braces")
     fields: dict[str, str] = {}
     last = None
     for literal, field in _parts(pattern, file):

@@ -6,7 +6,7 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from threading import Event
 from typing import Any, TypeVar
 
-from .errors import InputError
+from .checks import workers
 
 Job = TypeVar("Job")
 Outcome = TypeVar("Outcome")
@@ -27,13 +27,11 @@ class Crew:
     Raises
     ------
     InputError
-        Fewer than one thread.
+        It is no number of threads.
     """
 
     def __init__(self, threads: int | None = None, on_progress: OnProgress | None = None) -> None:
-        if threads is not None and threads < 1:
-            raise InputError(f"threads is {threads}", wanted="at least 1")
-        self._threads = threads or os.cpu_count() or 1
+        self._threads = workers(threads) or os.cpu_count() or 1
         self._on_progress = on_progress or (lambda *_: None)
         self._stop = Event()
 

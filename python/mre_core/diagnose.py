@@ -2,7 +2,8 @@
 
 import json
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
 from numbers import Real
 from typing import Any, Literal
 
@@ -10,8 +11,9 @@ import numpy as np
 
 from . import _core
 from ._core import Recording
+from .checks import choice, flag, whole, workers
 from .diagnosis import Diagnosis, History
-from .errors import InputError
+from .errors import InputError, shown
 from .findings import (
     blank_of,
     comparison,
@@ -25,7 +27,7 @@ from .findings import (
     unknown_of,
 )
 from .grouping import check_once, each_of, group_by_current, labels
-from .minimise import draw_seed
+from .minimise import ON_INTERRUPT, draw_seed
 from .model import SIMULATED, Level, Model, simulate
 from .suitable import check_recordings
 from .tested import largest_motion
@@ -44,8 +46,11 @@ def check_false_alarm(given: object) -> None:
     InputError
         It is no number in (0, 0.5).
     """
-    if isinstance(given, bool) or not (isinstance(given, Real) and 0 < float(given) < 0.5):
-        raise InputError(f"false_alarm is {given!r}", wanted="a number above 0 and below 0.5")
+    if isinstance(given, Real) and not isinstance(given, bool):
+        with suppress(OverflowError):
+            if 0 < float(given) < 0.5:
+                return
+    raise InputError(f"false_alarm is {shown(given)}", wanted="a number above 0 and below 0.5")
 
 
 def diagnose(
@@ -103,12 +108,14 @@ def diagnose(
         The recordings, the base or a setting cannot be used (a ValueError).
     """
     everything = list(each_of(recordings))
+    fixed = flag(fixed, "fixed")
+    choice(on_interrupt, "on_interrupt", ON_INTERRUPT)
+    ruled_out = _ruled_out(without)
     start = _read(base)
     name = start.name if isinstance(start, Model) else start
     given = start.levels if isinstance(start, Model) and fixed else None
     check_false_alarm(false_alarm)
-    if isinstance(blank, bool) or not isinstance(blank, int | np.integer) or not 0 <= blank <= MOST_BLANKS:
-        raise InputError(f"blank is {blank!r}", wanted=f"a whole number from 0 to {MOST_BLANKS}")
+    blank = whole(blank, "blank", 0, MOST_BLANKS)
     seed = draw_seed(seed)
     groups = group_by_current(everything)
     places = {id(recording): place for place, recording in enumerate(everything)}
@@ -121,9 +128,9 @@ def diagnose(
         [[places[id(member)] for member in members] for _, members in groups],
         false_alarm=float(false_alarm),
         seed=seed,
-        without=_ruled_out(without),
-        blank=int(blank),
-        threads=threads,
+        without=ruled_out,
+        blank=blank,
+        threads=workers(threads),
         on_stage=on_stage,
         on_interrupt=on_interrupt,
         **_base(start, everything, fixed=fixed),
@@ -177,10 +184,10 @@ def diagnose(
 def _ruled_out(ids: Sequence[str]) -> list[str]:
     """Check ids of effects."""
     known = list(dict.fromkeys(row["id"] for row in _core.catalogue()))
-    for given in [ids] if isinstance(ids, str) else ids:
-        if given not in known:
-            raise InputError(f"without names '{given}'", wanted=f"one of {', '.join(known)}")
-    return [ids] if isinstance(ids, str) else list(ids)
+    given = [ids] if isinstance(ids, str) else ids
+    if not isinstance(given, Iterable):
+        raise TypeError(f"without is {shown(given)}: wanted ids of effects")
+    return [choice(each, "without", known) for each in given]
 
 
 def _read(base: str | os.PathLike[str] | Model) -> str | Model:
@@ -190,9 +197,11 @@ def _read(base: str | os.PathLike[str] | Model) -> str | Model:
     if isinstance(base, str) and not base.endswith(".json"):
         if base not in (known := [*_core.models(), SIMULATED]):
             raise InputError(
-                f"the base is '{base}'", wanted=f"{', '.join(known)}, or the path of a model.json"
+                f"the base is {shown(base)}", wanted=f"{', '.join(known)}, or the path of a model.json"
             )
         return base
+    if not isinstance(base, str | os.PathLike):
+        raise TypeError(f"base is {shown(base)}: wanted the name of a model, a Model or its file")
     return Model.load(base)
 
 

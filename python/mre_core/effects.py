@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any, Self
 
 from . import _core
-from .errors import InputError
+from .errors import InputError, mapping
 from .stored import number
 
 
@@ -33,7 +33,7 @@ class Effect:
     parameters: Mapping[str, float]
 
     def __post_init__(self) -> None:
-        if sorted(self.parameters) != sorted(self.units):
+        if sorted(mapping("parameters", self.parameters, "name to number")) != sorted(self.units):
             found = ", ".join(self.parameters) or "none"
             raise InputError(
                 f"parameters of {self.id} ({self.law}) are {found}", wanted=", ".join(self.units) or "none"

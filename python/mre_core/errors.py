@@ -142,7 +142,10 @@ def shown(value: object) -> str:
     str
         One short line.
     """
-    text = f"'{value}'" if isinstance(value, str) else str(value)
+    try:
+        text = f"'{value}'" if isinstance(value, str) else str(value)
+    except Exception:  # of a number with thousands of digits, or of somebody else's class
+        text = f"unprintable ({type(value).__name__})"
     text = one_line(text)
     return text if len(text) <= _LONGEST_VALUE else text[: _LONGEST_VALUE - 3] + "..."
 

@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 
 from . import _core
 from ._core import Problem
-from .minimise import RunOptions, check_options, draw_seed
+from .checks import choice, workers
+from .minimise import ON_INTERRUPT, RunOptions, check_options, draw_seed
 from .results import StopReason, SwarmResult, parameters_at, to_records
 from .swarms import defaults
 
@@ -41,7 +42,8 @@ def exact(
     ----------
     Golub and Pereyra 1973, https://doi.org/10.1137/0710036
     """
-    found = _core.fit_exact(problem, threads=threads, on_interrupt=on_interrupt)
+    choice(on_interrupt, "on_interrupt", ON_INTERRUPT)
+    found = _core.fit_exact(problem, threads=workers(threads), on_interrupt=on_interrupt)
     return _result("exact", problem, found, 0, {})
 
 

@@ -6,9 +6,10 @@ from typing import Any, Literal
 
 import numpy as np
 
-from ._core import Problem, Recording, check_certifiable, parameters
+from ._core import Problem, Recording, check_certifiable, models, parameters
 from .certificate import certificate
-from .errors import InputError, MreError, shown
+from .checks import choice, flag
+from .errors import InputError, MreError
 from .fits import exact, hybrid
 from .grouping import check_once, each_of, group_by_current
 from .measure import Fit, measure_fit
@@ -132,9 +133,9 @@ def identify(
     MreError
         The recordings, the model, a bound or an option cannot be used (a ValueError).
     """
-    if optimizer not in OPTIMIZERS:
-        raise InputError(f"optimizer is {shown(optimizer)}", wanted=f"one of {', '.join(OPTIMIZERS)}")
-    name = model.name if isinstance(model, Model) else model
+    choice(optimizer, "optimizer", OPTIMIZERS)
+    certify = flag(certify, "certify")
+    name = model.name if isinstance(model, Model) else choice(model, "model", models())
     everything = list(each_of(recordings))
     groups = group_by_current(everything)
     check_once(everything)

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ._core import Recording
+from .columns import check_map
 from .conditions import conditions_in_name, read_conditions
 from .errors import InputError, UnitAssumedWarning
 from .files import ReadOptions, Table, find_files, open_tables
@@ -117,8 +118,8 @@ def inspect(
     if not opened:
         raise InputError("no file holds a table", file=str(given[0]) if given else None, wanted="a recording")
     stems = list(dict.fromkeys(file.stem for file, _ in opened))
-    pattern = name_pattern or guess_pattern(stems)
-    known = dict(map or {})
+    pattern = guess_pattern(stems) if name_pattern is None else name_pattern
+    known = dict(check_map(map))
     found = [
         _inspect(
             EvenTable(table, options.rate) if options.rate is not None else table,

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from ._core import Recording
+from .checks import flag
 from .conditions import conditions_in_name, read_conditions
 from .errors import InputError, SkippedWarning, listed, one_line
 from .files import ReadOptions, Table, find_files, open_tables
@@ -69,6 +70,7 @@ def load(
         A column states no unit, so the canonical one is taken.
     """
     options = ReadOptions.of(read)
+    require_force = flag(require_force, "require_force")
     found = _load_file(Path(path), map, name_pattern, options, conditions, require_force=require_force)
     if len(found) > 1:
         names = listed([recording.name for recording in found])
@@ -139,6 +141,7 @@ def load_each(
     """
     given = [paths] if isinstance(paths, str | os.PathLike) else list(paths)
     options = ReadOptions.of(read)
+    require_force = flag(require_force, "require_force")
     named = {Path(path) for path in given}
     files = find_files(given)
     none = True

@@ -15,6 +15,8 @@ Function = Callable[[NDArray[np.float64]], ArrayLike]
 Bounds = Mapping[str, tuple[float, float]] | Sequence[tuple[float, float]]
 Box = tuple[list[str], NDArray[np.float64], NDArray[np.float64]]
 
+ON_INTERRUPT = ("raise", "return")
+
 # What makes a fish swarm AFSA, beside the settings that its function takes.
 _FIXED: dict[str, dict[str, Any]] = {
     "afsa": {

@@ -3,7 +3,7 @@
 import math
 import os
 import warnings
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Self
@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from . import _core
 from ._core import Recording
+from .checks import choice
 from .current_laws.law import Dependence
 from .current_laws.variable import check_over, series_of
 from .effects import Effect
@@ -65,7 +66,11 @@ class Model:
     """What the laws run over: in place of the current, ``temperature`` or ``amplitude``."""
 
     def __post_init__(self) -> None:
+        choice(self.name, "model", [*_core.models(), SIMULATED])
         known = list(self.units)
+        for name, of in (("levels", "Level"), ("effects", "Effect")):
+            if not isinstance(given := getattr(self, name), Sequence):
+                raise TypeError(f"{name} are {shown(given)}: wanted a sequence of {of}")
         if not self.levels:
             raise InputError("the model has no levels", wanted="at least one level of parameters")
         for level in self.levels:
@@ -73,7 +78,7 @@ class Model:
                 raise TypeError(f"levels hold {shown(level)}: wanted a Level")
             if level.current is not None:
                 number(level.current, "current of a level")
-            if sorted(level.parameters) != sorted(known):
+            if sorted(mapping("parameters", level.parameters, "name to number")) != sorted(known):
                 raise InputError(
                     f"parameters of {self.name} are {', '.join(level.parameters)}", wanted=", ".join(known)
                 )
@@ -88,7 +93,7 @@ class Model:
             raise InputError(
                 "the model has effects and no sizes", wanted="sizes of the recordings behind them"
             )
-        if self.laws and sorted(self.laws) != sorted(known):
+        if mapping("laws", self.laws, "parameter to law") and sorted(self.laws) != sorted(known):
             raise InputError(f"laws of {self.name} are {', '.join(self.laws)}", wanted=", ".join(known))
         if self.name != SIMULATED:
             _core.check(self.name, self.given())
@@ -184,7 +189,7 @@ class Model:
             return cls(
                 str(content["model"]), levels, tested, effects, dict(content.get("sizes", {})), laws, over
             )
-        except (KeyError, TypeError, AttributeError) as error:
+        except (LookupError, TypeError, AttributeError) as error:
             raise InputError(f"not a model: {error!r}", file=file, wanted=f"a {SCHEMA} file") from None
         except ValueError as error:
             raise (

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from typing import Any, Literal, Unpack
 
 from ._core import Problem
-from .errors import InputError
+from .checks import choice
 from .minimise import Bounds, Function, RunOptions, minimise
 from .results import SwarmResult
 
@@ -167,9 +167,7 @@ def pso(
 def defaults(algorithm: str) -> dict[str, Any]:
     """Read the default settings of a swarm from the signature of its function."""
     functions: dict[str, Callable[..., SwarmResult]] = {"mafsa": mafsa, "afsa": afsa, "pso": pso}
-    if algorithm not in functions:
-        raise InputError(f"algorithm is {algorithm!r}", wanted=f"one of {', '.join(functions)}")
-    keywords = inspect.signature(functions[algorithm]).parameters.values()
+    keywords = inspect.signature(functions[choice(algorithm, "algorithm", functions)]).parameters.values()
     return {
         k.name: k.default for k in keywords if k.kind is inspect.Parameter.KEYWORD_ONLY and k.name != "seed"
     }

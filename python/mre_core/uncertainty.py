@@ -8,7 +8,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _core
 from ._core import Problem
+from .checks import whole, workers
 from .minimise import draw_seed
+from .stored import number
+
+MOST_REPLICATES = 1_000_000
+"""More say no more about an interval, and their parameters would fill the memory."""
 
 
 @dataclass(frozen=True)
@@ -128,7 +133,7 @@ def uncertainty(problem: Problem, x: ArrayLike, *, level: float = 0.95) -> Uncer
     ----------
     Worsley et al. 2002, https://doi.org/10.1006/nimg.2001.0933 (correction of the residuals)
     """
-    found = _core.fit_uncertainty(problem, x, level)
+    found = _core.fit_uncertainty(problem, x, number(level, "level"))
     return Uncertainty(
         level,
         tuple(Estimate(*row) for row in found["parameters"]),
@@ -169,7 +174,9 @@ def profile(
     MreError
         As `uncertainty`.
     """
-    return tuple(Profile(*row) for row in _core.fit_profile(problem, x, level, threads=threads))
+    level = number(level, "level")
+    rows = _core.fit_profile(problem, x, level, threads=workers(threads))
+    return tuple(Profile(*row) for row in rows)
 
 
 def bootstrap(
@@ -215,7 +222,10 @@ def bootstrap(
     ----------
     Davison and Hinkley 1997, https://doi.org/10.1017/CBO9780511802843, section 8.2.3
     """
-    seed = draw_seed(seed)
-    names, rows, intervals, blocks = _core.fit_bootstrap(problem, x, replicates, seed, level, threads=threads)
+    seed, level = draw_seed(seed), number(level, "level")
+    replicates = whole(replicates, "replicates", 2, MOST_REPLICATES)
+    names, rows, intervals, blocks = _core.fit_bootstrap(
+        problem, x, replicates, seed, level, threads=workers(threads)
+    )
     by_name = dict(zip((name for name, _ in names), intervals, strict=True))
     return Bootstrap(level, seed, dict(names), rows, by_name, tuple(blocks))

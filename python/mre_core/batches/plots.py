@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from .. import _core
+from ..checks import choice
 from ..errors import InputError
 
 if TYPE_CHECKING:
@@ -82,8 +83,7 @@ def plot_parameters(
     """
     from matplotlib.figure import Figure
 
-    if against not in AGAINST:
-        raise InputError(f"against is {against!r}", wanted=" or ".join(AGAINST))
+    choice(against, "against", AGAINST)
     table = long_table(results)
     names = list(parameters) if parameters is not None else list(dict.fromkeys(table["parameter"]))
     if unknown := sorted(set(names) - set(table["parameter"])):

@@ -8,6 +8,7 @@ from typing import Any, Literal
 import numpy as np
 
 from .._core import Recording
+from ..checks import choice, texts
 from ..errors import InputError, mapping
 from ..model import Level, Model
 from .bounds import notes_of, words_of
@@ -145,9 +146,8 @@ def fit_laws(
 
     structure = Structure.of(model)
     check_over(over)
-    if weights not in ("samples", "force"):
-        raise InputError(f"weights is {weights!r}", wanted="samples or force")
-    given = _given(structure, mapping("laws", laws, "parameter to law"), shared)
+    choice(weights, "weights", ("samples", "force"))
+    given = _given(structure, mapping("laws", laws, "parameter to law"), texts(shared, "shared"))
     boxes = mapping("bounds", bounds, "name to (lower, upper)")
     with threadpool_limits(1, "blas"):  # the same bits on any machine, and no waiting of small matrices
         campaign = read_campaign(recordings, structure, boxes, over, by_force=weights == "force")

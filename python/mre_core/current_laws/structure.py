@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .._core import parameters
-from ..errors import InputError
+from ..checks import choice
 
 _SHAPES = {"kelvin_voigt": (), "sinh": ("beta",), "bouc_wen": ("rho", "sigma", "n")}
 _SHAPED = {"sinh": "alpha", "bouc_wen": "kw"}
@@ -38,8 +38,7 @@ class Structure:
         InputError
             There is no such model.
         """
-        if model not in _SHAPES:
-            raise InputError(f"the model is '{model}'", wanted=", ".join(_SHAPES))
+        choice(model, "model", _SHAPES)
         rows = parameters(model)
         names = tuple(name for name, _ in rows)
         shapes = _SHAPES[model]

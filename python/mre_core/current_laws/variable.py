@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._core import Recording
+from ..checks import choice
 from ..errors import InputError
 from ..grouping import same_level
 
@@ -15,8 +16,7 @@ UNITS = {"current": "A", "temperature": "degC", "amplitude": "mm"}
 
 def check_over(over: str) -> None:
     """Refuse what laws do not run over."""
-    if over not in UNITS:
-        raise InputError(f"over is {over!r}", wanted=" or ".join(UNITS))
+    choice(over, "over", UNITS)
 
 
 def series_of(recording: Recording, over: str) -> NDArray[np.float64]:

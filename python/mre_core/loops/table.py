@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from .._core import Recording
+from ..checks import choice
 from ..errors import InputError
 from ..grouping import each_of, labels
 from ..model import Model, simulate
@@ -127,8 +128,7 @@ def loops(
     >>> len(table.measured), round(table.mean("effective_stiffness"), 3), round(table.mean("energy"), 2)
     (4, 5.0, 31.58)
     """
-    if convention not in CONVENTIONS:
-        raise InputError(f"the convention is {convention!r}", wanted=" or ".join(CONVENTIONS))
+    choice(convention, "convention", CONVENTIONS)
     everything = list(each_of(recordings))
     names = labels([recording.name for recording in everything])
     if isinstance(model, str | os.PathLike):
