@@ -106,7 +106,7 @@ def test_campaigns_and_their_currents(tmp_path: Path) -> None:
     np.testing.assert_allclose(points, [[0.0, 1.0], [0.5, 1.5], [0.5, 1.5]], atol=0.01)
     with pytest.raises(InputError, match="'c9' is no parameter of the results, wanted c0, k0, F0"):
         mre_core.plot_parameters(table.reset_index(), "time", ["c9"])
-    with pytest.raises(InputError, match="against is 'noise', wanted current or amplitude or time"):
+    with pytest.raises(InputError, match="against is 'noise', wanted one of current, amplitude, time"):
         mre_core.plot_parameters(table.reset_index(), "noise")
 
 

@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from .checks import check_name
 from .errors import InputError
 from .interruption import uninterrupted
 
@@ -79,7 +80,12 @@ def staged_beside(path: str | os.PathLike[str]) -> Iterator[Stage]:
         The file cannot be written.
     """
     target = Path(path)
-    if target.exists() and not target.is_file():
+    check_name(target.name)
+    try:
+        taken = target.exists() and not target.is_file()
+    except OSError as error:  # such as of a name that is too long
+        raise _unwritable(target, error) from None
+    if taken:
         what = "a folder" if target.is_dir() else "no regular file"
         raise InputError(f"is {what}", file=str(target), wanted="the name of a file to write")
     with staged(target.parent) as stage:
@@ -99,6 +105,8 @@ def write_file(path: str | os.PathLike[str], write: Callable[[Path], None]) -> N
 
 
 def _prepared(target: Path, made: list[Path]) -> Path:
+    if "\0" in str(target):
+        raise InputError("its name holds a null byte", file=str(target), wanted="a folder to write to")
     for folder in [*reversed(target.parents), target]:
         if not folder.exists():
             folder.mkdir()

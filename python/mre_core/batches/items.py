@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 from os.path import realpath
 from pathlib import Path
 
+from ..checks import is_text
 from ..errors import InputError, SkippedWarning, listed
-from ..files.limits import is_text
 from ..files.readers import READERS
 from .columns import MODELS, RESULTS
 from .journal import JOURNAL

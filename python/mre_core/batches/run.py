@@ -3,16 +3,16 @@
 import math
 import os
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import ExitStack, suppress
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from .._core import __version__
-from ..errors import InputError, SkippedWarning, listed, shown
+from ..checks import MOST_WORKERS, check_name, texts, whole
+from ..checks import workers as worker_count
+from ..errors import InputError, SkippedWarning, listed, mapping, shown
 from ..minimise import draw_seed
 from ..stored import number
 from .columns import RESULTS, read_results
@@ -112,16 +112,24 @@ def batch(
     from .ledger import Ledger
     from .settings import Reading, Settings
 
-    of_file = (dict(map or {}), dict(conditions or {}), name_pattern)
-    reading = Reading(*of_file, cut, tuple(exclude), dict(read or {}))
+    for place in (folder, out):
+        check_name(place)
+    reading = Reading(
+        dict(mapping("map", map, "role to column")),
+        dict(mapping("conditions", conditions, "role to value")),
+        name_pattern,
+        cut,
+        texts(exclude, "exclude"),
+        dict(mapping("read", read, "key to value")),
+    )
     settings = Settings.of(model, base, reading, options, bootstrap)
-    _check(seed, seeds, budget, workers, threads)
+    several = _check(seed, seeds, budget, workers, threads)
     items = find_items(folder, Path(out))
     with ExitStack() as stack:
         engine = stack.enter_context(chosen_engine(workers, threads, cluster, executor, Path(folder)))
         journal = stack.enter_context(journal_in(Path(out)))
         first = journal.begin(__version__, seed, settings)
-        run = Ledger(items, list(seeds) if seeds is not None else [first], settings, journal, threads)
+        run = Ledger(items, several or [first], settings, journal, threads)
         for needed in ("pandas", "pyarrow.parquet"):  # now: who stops a batch does not want to wait for it
             import_module(needed)
         try:
@@ -150,15 +158,18 @@ def _clear(out: Path) -> None:
 
 def _check(
     seed: int | None, seeds: Sequence[int] | None, budget: float | None, workers: int | None, threads: int
-) -> None:
+) -> list[int] | None:
+    """Refuse what cannot be; the seeds, where several are given."""
     if seed is not None and seeds is not None:
         raise InputError("both a seed and seeds are given", wanted="one of them")
-    if seeds is not None and (not seeds or len(set(seeds)) < len(seeds)):
-        raise InputError(f"seeds are {list(seeds)}", wanted="at least one seed, each once")
-    for each in seeds or ():
-        draw_seed(each)  # refuses what is no seed
+    if seeds is not None and not isinstance(seeds, Iterable):
+        raise TypeError(f"seeds are {shown(seeds)}: wanted a sequence of whole numbers")
+    several = None if seeds is None else [whole(one, "one of seeds", 0, 2**64 - 1) for one in seeds]
+    if several is not None and (not several or len(set(several)) < len(several)):
+        raise InputError(f"seeds are {shown(several)}", wanted="at least one seed, each once")
+    draw_seed(seed)  # refuses what is no seed
     if budget is not None and not 0 < (seconds := number(budget, "budget")) < math.inf:
         raise InputError(f"budget is {seconds} s", wanted="a positive number of seconds")
-    for name, value in (("workers", workers), ("threads", threads)):
-        if value is not None and not (isinstance(value, int | np.integer) and 1 <= value <= 1024):
-            raise InputError(f"{name} is {shown(value)}", wanted="a whole number from 1 to 1024")
+    worker_count(workers, "workers")
+    whole(threads, "threads", 1, MOST_WORKERS)
+    return several

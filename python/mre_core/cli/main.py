@@ -16,7 +16,8 @@ from typing import TextIO
 import click
 
 from .. import __version__
-from ..errors import MreError, one_line
+from ..checks import is_text
+from ..errors import MreError, one_line, shown
 from ..interruption import Interruptions
 from .arguments import spread
 from .batch import batch
@@ -116,6 +117,10 @@ def _run(given: list[str]) -> int:
         return _fail(error.format_message(), 2)
     except MreError as error:
         return _fail(str(error), 2)
+    except UnicodeEncodeError as error:
+        if all(map(is_text, given)):
+            return _unforeseen(error)
+        return _fail(f"{shown(error.object)} is no text in UTF-8, wanted an argument that is", 2)
     except ValueError as error:
         if "null byte" not in str(error):
             return _unforeseen(error)

@@ -81,7 +81,8 @@ def write_settings(stage: "Stage", folder: Path, name: str = NAME, **resolved: o
         place = document if key in _SHARED else own
         place[key] = _written(key, value, folder)
     document[table_of(context.command)] = own
-    stage.path(name).write_text(tomlkit.dumps(document), encoding="utf-8")
+    # The path of a model may be no text: a question mark then.
+    stage.path(name).write_text(tomlkit.dumps(document), encoding="utf-8", errors="replace")
 
 
 def name_beside(result: Path) -> str:

@@ -4,6 +4,7 @@ from pathlib import Path
 from stat import S_ISDIR, S_ISREG
 from typing import Any, Final
 
+from ..checks import check_name
 from ..errors import InputError
 from .pipes import is_open_pipe, read_pipe
 
@@ -58,9 +59,7 @@ def check_file(path: Path) -> None:
     InputError
         It is missing, not readable, too large, or neither a regular file nor a pipe that is open.
     """
-    if not is_text(str(path)):
-        wanted = "another name: it goes into results"
-        raise InputError("its name is no text in UTF-8", file=str(path), wanted=wanted)
+    check_name(path)
     try:
         status = path.stat()
         if S_ISDIR(status.st_mode):
@@ -78,14 +77,6 @@ def check_file(path: Path) -> None:
     except OSError as error:
         raise _unreadable(path, error) from None
     _check_size(status.st_size, path)
-
-
-def is_text(name: str) -> bool:
-    """Tell whether a name can be written: one of other bytes than UTF-8, or with a null byte, cannot."""
-    try:
-        return b"\0" not in name.encode()
-    except UnicodeEncodeError:
-        return False
 
 
 def check_values(count: int, file: str) -> None:

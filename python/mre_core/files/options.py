@@ -56,7 +56,7 @@ class ReadOptions(NamedTuple):
 def _encoding(text: str) -> str:
     try:
         return codecs.lookup(text.strip()).name
-    except LookupError:
+    except (LookupError, ValueError):
         raise _wrong("encoding", text, "the name of one, such as utf-8, cp1252, gbk or utf-16") from None
 
 
