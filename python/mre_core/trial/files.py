@@ -1,17 +1,22 @@
 """What lies in the folder of a trial, and how it is read."""
 
 import hashlib
+import os
+import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ..errors import InputError
-from ..stored import read_json
+from .._core import models
+from ..errors import InputError, shown
+from ..stored import conform, read_json
+from .shapes import CASES
 
 TRIAL = "mre-core/trial/1"
 ANSWERS = "mre-core/trial-answers/1"
 DIAGNOSIS = "mre-core/trial-diagnosis/1"
 RESULTS = "mre-core/trial-results/1"
+_ID = re.compile(r"[0-9A-Za-z_-]{1,100}")
 
 
 @dataclass(frozen=True)
@@ -50,17 +55,20 @@ class Folder:
 
     def cases(self) -> dict[str, str]:
         """Return the base model by case, as ``trial.json`` lists them."""
-        listed = self.stated("cases")
-        try:
-            return {str(one["id"]): str(one["base"]) for one in listed}
-        except (TypeError, KeyError):
-            raise InputError(
-                f"cases are {str(listed)[:40]!r}", file=str(self.trial), wanted="a list of ids and bases"
-            ) from None
+        listed, file = self.stated("cases"), str(self.trial)
+        conform(listed, CASES, file, "cases")
+        for one in listed:
+            if not _ID.fullmatch(one["id"]):  # it becomes part of paths
+                found = f"id of a case is {shown(one['id'])}"
+                raise InputError(found, file=file, wanted="letters and digits")
+            if one["base"] not in models():
+                found = f"base of case {one['id']} is {shown(one['base'])}"
+                raise InputError(found, file=file, wanted=f"one of {', '.join(models())}")
+        return {one["id"]: one["base"] for one in listed}
 
     def stated(self, key: str) -> Any:
         """Return an entry of ``trial.json``."""
-        if not self.trial.is_file():
+        if not os.path.isfile(self.trial):  # False as well for a name that cannot be
             raise InputError(
                 "holds no trial: there is no trial.json",
                 file=str(self.root),

@@ -2,14 +2,16 @@
 
 import os
 import secrets
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 from .._core import __version__
-from ..errors import InputError
+from ..checks import whole
+from ..checks import workers as worker_count
+from ..errors import InputError, shown
 from ..output import staged
 from .case import Case, error_shown
 from .files import ANSWERS, TRIAL, Folder, digest, seal_of
@@ -17,6 +19,7 @@ from .plan import standard
 from .workers import spread
 
 MOST_CASES = 100_000
+SEED_BITS = 128
 
 
 def make_trial(
@@ -57,15 +60,12 @@ def make_trial(
         The folder holds a trial already or cannot be written, or a number is not positive.
     """
     folder = Folder(Path(directory))
-    taken = [path for path in (folder.trial, folder.answers, folder.root / "recordings") if path.exists()]
+    taken = [p for p in (folder.trial, folder.answers, folder.root / "recordings") if os.path.exists(p)]
     if taken:
         raise InputError(f"holds {taken[0].name} already", file=str(folder.root), wanted="a new folder")
-    if isinstance(cases, int) and not 1 <= cases <= MOST_CASES:
-        raise InputError(f"cases is {cases}", wanted=f"a whole number from 1 to {MOST_CASES}")
-    if seed is not None and seed < 0:
-        raise InputError(f"seed is {seed}", wanted="0 or more")
-    drawn = secrets.randbits(128) if seed is None else seed
-    planned = standard(cases, drawn) if isinstance(cases, int) else list(cases)
+    worker_count(workers, "workers")
+    drawn = secrets.randbits(SEED_BITS) if seed is None else whole(seed, "seed", 0, 2**SEED_BITS - 1)
+    planned = _planned(cases, drawn)
     with staged(folder.root) as stage:
         place = stage.path("recordings")
         place.mkdir()
@@ -86,6 +86,17 @@ def make_trial(
             "trial.json", {"schema": TRIAL, "version": __version__, "seal": seal, "cases": bases}
         )
     return seal
+
+
+def _planned(cases: int | Sequence[Case], seed: int) -> list[Case]:
+    if not isinstance(cases, Iterable):
+        return standard(whole(cases, "cases", 1, MOST_CASES), seed)
+    found = list(cases)
+    for one in found:
+        if not isinstance(one, Case):
+            raise TypeError(f"cases hold {shown(one)}: wanted a number of cases, or a sequence of Case")
+    whole(len(found), "the number of cases", 1, MOST_CASES)
+    return found
 
 
 def _make(place: Path, job: tuple[str, Case]) -> tuple[str, dict[str, Any]]:

@@ -8,6 +8,8 @@ from typing import Any
 from .._core import __version__
 from ..errors import InputError, listed
 from ..output import staged
+from ..stored import conform
+from . import shapes
 from .files import ANSWERS, DIAGNOSIS, RESULTS, Folder, read, seal_of
 from .outcomes import Scored, scored
 from .sheets import Sheet, sheets_of
@@ -77,7 +79,7 @@ def open_trial(
     place = Path(answers) if answers is not None else folder.answers
     wanted = _agreed(folder, stated, seal)
     _check_run(folder, cases)
-    if not place.is_file():
+    if not os.path.isfile(place):
         raise InputError(
             "there are no answers",
             file=str(place),
@@ -88,6 +90,7 @@ def open_trial(
             f"the seal is broken: SHA-256 of the answers is {found}", file=str(place), wanted=wanted
         )
     told = read(place, ANSWERS)
+    conform(told, shapes.ANSWERS, str(place))
     if missing := sorted(set(told["cases"]) ^ set(cases)):
         raise InputError(
             f"cases {listed(missing)} are in one of trial.json and answers.json",
@@ -96,7 +99,7 @@ def open_trial(
         )
     opened = []
     for case in sorted(cases):
-        answer, said = told["cases"][case], read(folder.diagnosis(case), DIAGNOSIS)
+        answer, said = told["cases"][case], _said(folder.diagnosis(case))
         if answer["case"]["base"] != cases[case]:
             raise InputError(
                 f"base of case {case} is '{cases[case]}'",
@@ -109,11 +112,25 @@ def open_trial(
                 file=str(folder.root),
                 wanted="recordings as 'trial make' wrote them",
             )
-        opened.append(scored(case, answer, said))
-    result = Opening(wanted, int(told["seed"]), tuple(opened))
+        try:
+            opened.append(scored(case, answer, said))
+        except (ArithmeticError, LookupError) as error:
+            raise InputError(
+                f"case {case} cannot be compared: {type(error).__name__} {error}",
+                file=str(place),
+                wanted="answers as 'trial make' wrote them",
+            ) from None
+    result = Opening(wanted, told["seed"], tuple(opened))
     with staged(folder.root) as stage:
         stage.write_json("results.json", result.to_dict())
     return result
+
+
+def _said(file: Path) -> dict[str, Any]:
+    """Read what was said about a case: a diagnosis, or an error in its place."""
+    found = read(file, DIAGNOSIS)
+    conform(found, shapes.DIAGNOSIS, str(file))
+    return found
 
 
 def _agreed(folder: Folder, stated: str, seal: str | None) -> str:

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from ..checks import flag
+from ..checks import workers as worker_count
 from ..errors import InputError, MreError, UnitAssumedWarning
 from ..output import staged
 from .files import DIAGNOSIS, Folder, digest, read
@@ -47,6 +49,8 @@ def run_trial(
     InputError
         The folder holds no trial or one that was opened or run already, or recordings are missing.
     """
+    resume = flag(resume, "resume")
+    worker_count(workers, "workers")
     folder = Folder(Path(directory))
     cases = folder.cases()
     if folder.results.exists():

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from typing import TypeVar
 
-from ..errors import InputError
+from ..checks import workers as worker_count
 
 Job = TypeVar("Job")
 Done = TypeVar("Done")
@@ -32,11 +32,9 @@ def spread(
     Raises
     ------
     InputError
-        `workers` is not a positive number.
+        `workers` is no whole number from 1 to 1024.
     """
-    if workers is not None and workers < 1:
-        raise InputError(f"workers is {workers}", wanted="at least 1")
-    count = min(workers or os.cpu_count() or 1, len(jobs))
+    count = min(worker_count(workers, "workers") or os.cpu_count() or 1, len(jobs))
     if count < 2:
         for job in jobs:
             take(work(job))
