@@ -56,7 +56,7 @@ WRONG: dict[str, tuple[list[str], list[str]]] = {
     "no such file": (["--recordings", "b.csv", "--out", "new"], ["b.csv: "]),
     "seed": (["--seed", "-1", "--out", "new"], ["seed is -1", "whole number"]),
     "seed is text": (["--seed", "x", "--out", "new"], ["--seed", "'x'"]),
-    "threads": (["--threads", "0", "--out", "new"], ["threads is 0", "at least 1"]),
+    "threads": (["--threads", "0", "--out", "new"], ["threads is 0", "from 1"]),
     "parts without recordings": (
         ["--exclude", "start_transient", "--out", "new"],
         ["--exclude is given without recordings", "--recordings"],

@@ -114,7 +114,7 @@ def test_recordings_that_cannot_be_studied(name: str) -> None:
     ("options", "message"),
     [
         ({"seed": -1}, r"seed is -1: |seed is -1, wanted a whole number"),
-        ({"threads": 0}, "threads is 0, wanted at least 1"),
+        ({"threads": 0}, "threads is 0, wanted a whole number from 1"),
     ],
 )
 def test_options_that_cannot_be_used(options: dict[str, Any], message: str) -> None:
@@ -124,7 +124,7 @@ def test_options_that_cannot_be_used(options: dict[str, Any], message: str) -> N
 
 @pytest.mark.parametrize("name", ["seeds", "bouc_wen_seeds", "bouc_wen_iterations"])
 def test_no_effort(name: str) -> None:
-    with pytest.raises(InputError, match=f"{name} is 0, wanted at least 1"):
+    with pytest.raises(InputError, match=f"{name} is 0, wanted a whole number from 1"):
         Effort(**{"seeds": 1, "bouc_wen_seeds": 1, "bouc_wen_iterations": 1} | {name: 0})
 
 

@@ -4,16 +4,19 @@ import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
 from .errors import InputError, shown
-from .stored import number, read_json
+from .stored import conform, number, read_json
 
 MOST_SAMPLES = 10_000_000
+LEAST, MOST = 1e-6, 1e9
+"""Of every limit: nine digits behind the point are written."""
+PROPOSAL: Final[Any] = {"excitation": str, "limits": {}}
 
 
 @dataclass(frozen=True)
@@ -58,6 +61,7 @@ def command(
     MreError
         A limit that is not positive and finite (a ValueError).
     """
+    conform(proposal, PROPOSAL, "the proposal")
     known = proposal["limits"]
     given = {
         "stroke": (stroke, "stroke_mm"),
@@ -70,8 +74,8 @@ def command(
         name: number(known.get(key) if value is None else value, name) for name, (value, key) in given.items()
     }
     for name, value in limits.items():
-        if value <= 0:
-            raise InputError(f"{name} is {value!r}", wanted="a positive number")
+        if not LEAST <= value <= MOST:
+            raise InputError(f"{name} is {shown(value)}", wanted=f"a number from {LEAST:g} to {MOST:g}")
     if limits["highest"] > limits["rate"] / 2:
         raise InputError(
             f"highest is {limits['highest']:g} Hz at {limits['rate']:g} samples a second",
@@ -88,11 +92,20 @@ def command(
             wanted=f"at most {MOST_SAMPLES} samples",
         )
     excitation, current = str(proposal.get("excitation")), known.get("current_A")
-    if current is not None and not (isinstance(current, list | tuple) and len(current) == 2):
-        raise InputError(f"current_A is {shown(current)}", wanted="the lowest and the highest current")
-    ends = None if current is None else (number(current[0], "current_A"), number(current[1], "current_A"))
+    ends = None if current is None else _ends(current)
     time, displacement, steps = _core.excitation(excitation, **limits, current=ends)
+    if (far := np.abs(displacement).max()) < LEAST:
+        found = f"the signal moves {far:g} mm with speed {limits['speed']:g} mm/s"
+        raise InputError(found, wanted=f"at least {LEAST:g} mm: a larger speed or a lower highest frequency")
     return Command(excitation, time, displacement, steps)
+
+
+def _ends(current: Any) -> tuple[float, float]:
+    if isinstance(current, list | tuple) and len(current) == 2:
+        low, high = (number(end, "current_A") for end in current)
+        if -MOST <= low <= high <= MOST:
+            return low, high
+    raise InputError(f"current_A is {shown(current)}", wanted="the lowest and the highest current")
 
 
 def read_proposal(folder: str | os.PathLike[str]) -> Mapping[str, Any]:

@@ -6,6 +6,8 @@ from typing import Any
 
 from .._core import Recording, __version__
 from ..crew import Crew, OnProgress
+from ..errors import shown
+from ..grouping import each_of
 from ..minimise import draw_seed
 from . import (
     figure02_weights,
@@ -105,10 +107,12 @@ def study(
         The recordings, the seed or the number of threads cannot be used (a ValueError).
     """
     seed = draw_seed(seed)
+    if not isinstance(effort, Effort):
+        raise TypeError(f"effort is {shown(effort)}: wanted an Effort")
     crew = Crew(threads, on_progress)
     if recordings is None:
         return _whole(REPLICA, replica(seed), truths(seed), TABLE_2, seed, effort, crew)
-    campaign = as_campaign(recordings)
+    campaign = as_campaign(list(each_of(recordings)))
     return _whole(RECORDED, campaign, {"as recorded": campaign}, {}, seed, effort, crew)
 
 

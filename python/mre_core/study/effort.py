@@ -2,7 +2,9 @@
 
 from dataclasses import dataclass
 
-from ..errors import InputError
+from ..checks import whole
+
+MOST = 1_000_000
 
 
 @dataclass(frozen=True)
@@ -12,7 +14,7 @@ class Effort:
     Raises
     ------
     InputError
-        One is less than 1.
+        One is no whole number from 1 to a million.
     """
 
     seeds: int
@@ -24,8 +26,7 @@ class Effort:
 
     def __post_init__(self) -> None:
         for name, value in vars(self).items():
-            if value < 1:
-                raise InputError(f"{name} is {value}", wanted="at least 1")
+            whole(value, name, 1, MOST)
 
 
 FULL = Effort(seeds=50, bouc_wen_seeds=10, bouc_wen_iterations=300)
