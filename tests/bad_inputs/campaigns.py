@@ -1,6 +1,7 @@
 """Input and options of the other commands that cannot be."""
 
 import json
+import os
 from collections.abc import Mapping
 from typing import Any
 
@@ -76,9 +77,30 @@ CAMPAIGNS = {
     ),
     "next-test: a list": Command(NEXT, ["proposes no test"], {"d/diagnosis.json": b"[]"}),
     "next-test: no limits": proposal("stroke is None", "a finite number", stroke_mm=None),
+    "next-test: limits that are none": Command(
+        NEXT, ["proposes no test"], {"d/diagnosis.json": b'{"next_test": {"limits": 3}}'}
+    ),
+    "next-test: a stroke that would be written as zero": Command(
+        [*NEXT, "--stroke", "1e-300"],
+        ["stroke is 1e-300", "from 1e-06"],
+        {
+            "d/diagnosis.json": json.dumps(
+                {"next_test": {"excitation": "slow_sine", "limits": LIMITS}}
+            ).encode()
+        },
+    ),
+    "next-test: a name too long": Command(
+        ["next-test", "d", "--out", "x" * 300],
+        ["x" * 300, "cannot be written", "File name too long"],
+        {
+            "d/diagnosis.json": json.dumps(
+                {"next_test": {"excitation": "slow_sine", "limits": LIMITS}}
+            ).encode()
+        },
+    ),
     "next-test: a word for a limit": proposal("rate is 'fast'", "a finite number", rate_hz="fast"),
     "next-test: a limit of NaN": proposal("duration is nan", "a finite number", duration_s=float("nan")),
-    "next-test: a stroke below zero": proposal("stroke is -4", "a positive number", stroke_mm=-4),
+    "next-test: a stroke below zero": proposal("stroke is -4", "a number from 1e-06", stroke_mm=-4),
     "next-test: a signal of 1e15 samples": proposal("at most 10000000 samples", duration_s=1e9, rate_hz=1e6),
     "next-test: an excitation of nobody": proposal("excitation is '../x'", "one of", excitation="../x"),
     "next-test: a current that is a word": proposal("current_A is 'ab'", "the lowest", current_A="ab"),
@@ -100,7 +122,7 @@ CAMPAIGNS = {
     "batch: NaN for a time": batch("budget is nan", "a finite number", given=["--budget", "nan"]),
     "batch: seeds that run backward": batch("--seeds 3:1", "FIRST:END", given=["--seeds", "3:1"]),
     "batch: a billion seeds": batch("--seeds 0:1000000000", given=["--seeds", "0:1000000000"]),
-    "batch: no bootstrap": batch("bootstrap is -1", "at least 2", given=["--bootstrap", "-1"]),
+    "batch: no bootstrap": batch("bootstrap is -1", "from 2", given=["--bootstrap", "-1"]),
     "batch: bounds of no parameter": batch("bounds of 'q'", "alpha", given=["--bounds", "q=0:1"]),
     "batch: bounds reversed": batch("bounds of beta", "lower", given=["--bounds", "beta=2:1"]),
     "batch: weights of nobody": batch("weights is 'q'", "'samples'", given=["--weights", "q"]),
@@ -111,11 +133,21 @@ CAMPAIGNS = {
         ["false_alarm is 2.0", "below 0.5"],
         IN_BATCH,
     ),
+    "batch: a seed below zero": batch("seed is -1", "from 0", given=["--seed", "-1"]),
+    "batch: a part of no such name": batch("part to exclude is 'x'", given=["--exclude", "x"]),
+    "batch: a name pattern without fields": batch("name pattern 'x'", given=["--name-pattern", "x"]),
     "batch: no address": batch("nonsense", given=["--cluster", "nonsense"]),
     "batch: no Dask workers": batch("local:0", given=["--cluster", "local:0"]),
     "batch: a folder that is a file": batch("a.csv", "cannot be written", given=["--out", "a.csv"]),
     "diagnose: a certain false alarm": Command(
         ["diagnose", "a.csv", "--base", "sinh", "--out", "new", "--false-alarm", "1"], ["false_alarm is 1.0"]
+    ),
+    "diagnose: an effect of nobody": Command(
+        ["diagnose", "a.csv", "--base", "sinh", "--out", "new", "--without", "magic"], ["without is 'magic'"]
+    ),
+    "diagnose: bytes that are no text": Command(
+        ["diagnose", "a.csv", "--base", "sinh", "--out", "new", "--exclude", os.fsdecode(b"\xff")],
+        ["'?' is no text in UTF-8"],
     ),
     "diagnose: no such base": Command(
         ["diagnose", "a.csv", "--base", "cinh", "--out", "new"], ["'cinh'", "sinh"]

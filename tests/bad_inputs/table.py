@@ -8,12 +8,14 @@ from .campaigns import CAMPAIGNS
 from .configs import CONFIGS
 from .files import FILES
 from .frames import FRAMES
+from .jobs import JOBS
 from .loading import LOADING
 from .made import Call, Command
 from .models import MODELS
 from .options import OPTIONS
 from .places import PLACES
 from .strangers import STRANGERS
+from .trials import TRIALS
 
 GROUPS: Mapping[str, Mapping[str, Command | Call]] = {
     "Recordings, `mre-core identify`": FILES,
@@ -25,8 +27,10 @@ GROUPS: Mapping[str, Mapping[str, Command | Call]] = {
     "Model files": MODELS,
     "Model files that were tampered with": STRANGERS,
     "Other commands": CAMPAIGNS,
+    "Trials of others": TRIALS,
     "Places to write to": PLACES,
     "Functions of Python": CALLED,
+    "Long work from Python": JOBS,
 }
 
 ROWS = {f"{kind} ({title})": row for title, rows in GROUPS.items() for kind, row in rows.items()}
