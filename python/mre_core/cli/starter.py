@@ -1,5 +1,6 @@
 """Settings to start from, written by ``mre-core inspect`` for a person to edit."""
 
+import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -40,7 +41,7 @@ def write_starter(
     """
     from ..output import write_file
 
-    if path.exists():
+    if os.path.exists(path):  # False for a name that cannot be, which is said when it is written
         raise InputError("is there already", file=str(path), wanted="a new name, or that it is removed first")
     text = _text(path, found, recordings, read, conditions)
 

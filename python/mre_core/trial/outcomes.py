@@ -81,7 +81,7 @@ def scored(case: str, answer: Mapping[str, Any], said: Mapping[str, Any]) -> Sco
         noise=planned["noise"],
         velocity=planned["velocity"],
         displacement_noise=planned["displacement_noise"],
-        excitation="short" if planned["samples"] else planned["excitation"],
+        excitation="short" if planned["samples"] else planned["excitation"] or "of the effect",
         reached=truth["reached"],
         verdict=found["verdict"] if found else "failed",
         outcome=outcome,

@@ -12,7 +12,7 @@ ANSWER: Final[Any] = {
         "noise": str,
         "velocity": str,
         "displacement_noise": float,
-        "excitation": str,
+        "excitation": (str,),
         "samples": (int,),
     },
     "truth": {
