@@ -119,7 +119,8 @@ def test_an_error_without_a_signal_is_none_of_an_interruption(
 
 
 @pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="needs timers of the system")
-def test_interrupt_waits_for_the_end_of_an_import(tmp_path: Path) -> None:
+@pytest.mark.parametrize("block", ["nullcontext()", "interrupts()"])
+def test_interrupt_waits_for_the_end_of_an_import(tmp_path: Path, block: str) -> None:
     (tmp_path / "swallows.py").write_text(
         "import signal\n"
         "try:\n    signal.raise_signal(signal.SIGTERM)\n    print('waited')\n"
@@ -127,11 +128,14 @@ def test_interrupt_waits_for_the_end_of_an_import(tmp_path: Path) -> None:
     )
     code = f"""
 import sys, time
+from contextlib import nullcontext
+from mre_core.cli.interrupts import interrupts
 from mre_core.cli.main import cli, main
 def late(*given, **more):
     sys.path.insert(0, {str(tmp_path)!r})
-    import swallows
-    time.sleep(20)
+    with {block}:
+        import swallows
+        time.sleep(20)
 cli.main = late
 sys.exit(main(["demo"]))
 """

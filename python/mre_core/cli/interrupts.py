@@ -16,6 +16,8 @@ class Interrupts:
     def __init__(self) -> None:
         self._asked = False
         self._done = False
+        self.before: dict[int, Any] = {}
+        """What answered each signal outside of the block."""
 
     def done(self) -> None:
         """From now on results are written, which takes a moment."""
@@ -25,7 +27,10 @@ class Interrupts:
         """Answer a signal."""
         first, self._asked = not self._asked, True
         if not (first and self._done):
-            raise KeyboardInterrupt
+            handler = self.before.get(signal_number)
+            if not callable(handler):
+                raise KeyboardInterrupt
+            handler(signal_number, frame)  # that of the command, which waits for the end of an import
 
 
 @contextmanager
@@ -38,7 +43,7 @@ def interrupts() -> Iterator[Interrupts]:
         To be told when there is nothing left to break off.
     """
     state = Interrupts()
-    before: dict[int, Any] = {}
+    before = state.before
     if threading.current_thread() is threading.main_thread():  # no other one may
         for number in ASKED:
             if signal.getsignal(number) is not signal.SIG_IGN:
