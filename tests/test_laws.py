@@ -562,6 +562,15 @@ def test_a_copy_under_another_name_is_pointed_out() -> None:
             work([*first, copy], "kelvin_voigt")
 
 
+def test_a_copy_at_another_current_is_pointed_out() -> None:
+    first = campaign((0.0, 1.0))
+    copy = Recording(first[0].time, first[0].displacement, first[0].force, current=2.0, name="copy")
+    said = "^'copy' holds the same as '3mm0A', at another current or temperature: one of them"
+    for work in (mre_core.fit_laws, mre_core.identify, mre_core.diagnose):
+        with pytest.warns(CopyWarning, match=said):
+            work([*first, copy], "kelvin_voigt")
+
+
 def test_a_bound_that_holds_a_value_is_named() -> None:
     found = mre_core.fit_laws(
         campaign((0.0, 1.0, 2.0)), "sinh", LAWS | {"alpha": "linear"}, bounds={"k0": (0, 8)}
