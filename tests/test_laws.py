@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mre_core import CopyWarning, Dependence, ExtrapolationWarning, InputError, Law, Level, Model, Recording
-from mre_core.cli.laws import _Again
+from mre_core.cli.again import Again
 from mre_core.current_laws.factors import Samples, SinhFactor
 from mre_core.current_laws.plots import plot_laws
 from mre_core.current_laws.structure import Structure
@@ -486,7 +486,7 @@ def test_each_recording_counts_once(cli: Cli, tmp_path: Path) -> None:
 
 def test_a_recording_that_changes_between_readings() -> None:
     passes = iter([campaign((0.0,)), campaign((0.0,), noise=0.5)])
-    again = _Again(lambda _: iter(next(passes)))
+    again = Again(lambda _: iter(next(passes)))
     assert len(list(again)) == 2
     with pytest.raises(InputError, match="recording '3mm0A' changed while it was read"):
         list(again)
