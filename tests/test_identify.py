@@ -78,7 +78,9 @@ def test_recordings_are_grouped_by_current() -> None:
     truth = {1.0: 9.0, 0.0: 5.0, 0.004: 5.0, 2.0: 20.0}
     recordings = [
         record(
-            made_of("kelvin_voigt", KELVIN_VOIGT | {"k0": k0}), motion(current=current), name=f"{current} A"
+            made_of("kelvin_voigt", KELVIN_VOIGT | {"k0": k0}),
+            motion(4 + current, current=current),
+            name=f"{current} A",
         )
         for current, k0 in truth.items()
     ]

@@ -1,6 +1,7 @@
 """Intervals of the values of laws: coverage, a twin, and what has none."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -9,6 +10,11 @@ import numpy as np
 import pandas as pd
 import pytest
 from mre_core import Recording
+from mre_core.current_laws.bounds import bound_of, physical_of
+from mre_core.current_laws.campaign import Campaign
+from mre_core.current_laws.shapes import ShapeBox
+from mre_core.current_laws.structure import Structure
+from mre_core.current_laws.tangents import Value
 from rig import Cli, made_of, motion, record, write_csv
 from scipy.signal import lfilter  # type: ignore[import-untyped]
 
@@ -133,3 +139,20 @@ def test_the_command_shows_and_keeps_them(cli: Cli, tmp_path: Path) -> None:
     assert f"{kept[0]['low']:.5g} to {kept[0]['high']:.5g}" in shown
     level = json.loads((out / "model.json").read_text(encoding="utf-8"))["levels"][0]["parameters"]
     assert level["c0"]["low"] == pytest.approx(table.at[0, "low"], rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("value", "bound"), [(1.0, ("lower", True)), (3.0, ("upper", False)), (2.0, None)], ids=str
+)
+def test_a_shape_at_its_physical_limit_is_told_from_one_on_a_bound(
+    value: float, bound: tuple[str, bool] | None
+) -> None:
+    limits = (1.0, np.inf)
+    searched = {"n": ShapeBox(1.0, 3.0, True, limits)}
+    structure = Structure.of("bouc_wen")
+    campaign = Campaign(structure, (), {}, searched, {}, None, samples=1, weight=1.0)
+    n = Value("n", "constant", None, value, "1")
+    assert bound_of(campaign, n) == bound
+    assert physical_of(campaign, "n") == limits
+    fixed = replace(campaign, shape_boxes={"n": ShapeBox(value, value, True, limits)})
+    assert bound_of(fixed, n) is None  # somebody wants it

@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mre_core import CopyWarning, Dependence, ExtrapolationWarning, InputError, Law, Level, Model, Recording
-from mre_core.cli.laws import _Again
+from mre_core.cli.again import Again
 from mre_core.current_laws.factors import Samples, SinhFactor
 from mre_core.current_laws.plots import plot_laws
 from mre_core.current_laws.structure import Structure
@@ -486,7 +486,7 @@ def test_each_recording_counts_once(cli: Cli, tmp_path: Path) -> None:
 
 def test_a_recording_that_changes_between_readings() -> None:
     passes = iter([campaign((0.0,)), campaign((0.0,), noise=0.5)])
-    again = _Again(lambda _: iter(next(passes)))
+    again = Again(lambda _: iter(next(passes)))
     assert len(list(again)) == 2
     with pytest.raises(InputError, match="recording '3mm0A' changed while it was read"):
         list(again)
@@ -559,6 +559,15 @@ def test_a_copy_under_another_name_is_pointed_out() -> None:
     copy = Recording(first[0].time, first[0].displacement, first[0].force, current=0.0, name="copy")
     for work in (mre_core.fit_laws, mre_core.identify, mre_core.diagnose):
         with pytest.warns(CopyWarning, match="^'copy' holds the same as '3mm0A': it counts twice"):
+            work([*first, copy], "kelvin_voigt")
+
+
+def test_a_copy_at_another_current_is_pointed_out() -> None:
+    first = campaign((0.0, 1.0))
+    copy = Recording(first[0].time, first[0].displacement, first[0].force, current=2.0, name="copy")
+    said = "^'copy' holds the same as '3mm0A', at another current or temperature: one of them"
+    for work in (mre_core.fit_laws, mre_core.identify, mre_core.diagnose):
+        with pytest.warns(CopyWarning, match=said):
             work([*first, copy], "kelvin_voigt")
 
 

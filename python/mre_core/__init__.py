@@ -14,7 +14,8 @@ if TYPE_CHECKING:
     from .batches import batch, plot_parameters, read_results
     from .certificate import Certificate, certificate
     from .chunks import read_chunks
-    from .current_laws.fit import LawFit, fit_laws
+    from .current_laws.fit import fit_laws
+    from .current_laws.found import LawFit
     from .current_laws.law import Dependence, Law
     from .dataframe import from_dataframe
     from .diagnose import diagnose
@@ -22,7 +23,8 @@ if TYPE_CHECKING:
     from .effects import Effect
     from .errors import CopyWarning, ExtrapolationWarning, InputError, SkippedWarning, UnitAssumedWarning
     from .fits import exact, hybrid
-    from .identify import Identification, identify
+    from .identification import Identification
+    from .identify import identify
     from .inspection import Inspection, inspect
     from .load import load, load_all
     from .loops import LoopTable, loops
@@ -94,7 +96,8 @@ _HOMES = {
     "batches": "batch plot_parameters read_results",
     "certificate": "Certificate certificate",
     "chunks": "read_chunks",
-    "current_laws.fit": "LawFit fit_laws",
+    "current_laws.fit": "fit_laws",
+    "current_laws.found": "LawFit",
     "current_laws.law": "Dependence Law",
     "dataframe": "from_dataframe",
     "diagnose": "diagnose",
@@ -102,7 +105,8 @@ _HOMES = {
     "effects": "Effect",
     "errors": "CopyWarning ExtrapolationWarning InputError SkippedWarning UnitAssumedWarning",
     "fits": "exact hybrid",
-    "identify": "Identification identify",
+    "identification": "Identification",
+    "identify": "identify",
     "inspection": "Inspection inspect",
     "load": "load load_all",
     "loops": "LoopTable loops",

@@ -5,7 +5,7 @@ from dataclasses import asdict
 from typing import Any
 
 from .certificate import Certificate
-from .identify import Identification
+from .identification import Identification
 from .results import SwarmResult
 from .uncertainty import Bootstrap, Profile, Uncertainty
 

@@ -23,7 +23,7 @@ class SkippedWarning(UserWarning):
 
 
 class CopyWarning(UserWarning):
-    """A recording holds what another one holds, under another name."""
+    """A recording holds what another one holds, under another name, current or temperature."""
 
 
 class ExtrapolationWarning(UserWarning):

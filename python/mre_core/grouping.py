@@ -4,11 +4,15 @@ import warnings
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from hashlib import blake2b
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ._core import Recording
 from .errors import CopyWarning, InputError, shown
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 
 def each_of(recordings: Recording | Iterable[Recording]) -> Iterator[Recording]:
@@ -32,42 +36,57 @@ def each_of(recordings: Recording | Iterable[Recording]) -> Iterator[Recording]:
 
 def content_of(recording: Recording) -> bytes:
     """Digest of what was measured and under which conditions, whatever the recording is called."""
+    return b"".join(_contents(recording))
+
+
+def _contents(recording: Recording) -> tuple[bytes, bytes]:
+    """Digests of what was measured, and of the conditions."""
+    measured = (recording.time, recording.displacement, recording.force)
+    return _digest(measured), _digest((recording.current, recording.temperature))
+
+
+def _digest(several: "Iterable[NDArray[np.float64] | float | None]") -> bytes:
     found = blake2b(digest_size=16)
-    conditions = (recording.current, recording.temperature)
-    for series in (recording.time, recording.displacement, recording.force, *conditions):
+    for series in several:
         found.update(b"none" if series is None else np.asarray(series, dtype=np.float64).tobytes())
     return found.digest()
 
 
 def each_once(recordings: Recording | Iterable[Recording]) -> Iterator[Recording]:
-    """Go through recordings as they come, and warn of one that is there twice under two names.
+    """Go through recordings as they come, and warn of one that is there twice: by name, or by conditions.
 
     A force that is zero throughout is the same in any recording.
 
     Warns
     -----
     CopyWarning
-        A recording holds what another one holds.
+        A recording holds what another one holds, whatever current and temperature are stated.
     """
-    seen: dict[bytes, str] = {}
+    seen: dict[bytes, tuple[str, bytes]] = {}
     for place, recording in enumerate(each_of(recordings), 1):
-        content = content_of(recording)
+        measured, conditions = _contents(recording)
         name = recording.name or f"recording {place}"
-        if (other := seen.get(content)) is not None:
+        if (first := seen.get(measured)) is not None:
+            other, others = first
             text = f"'{name}' holds the same as '{other}': it counts twice, as more than was measured"
+            if conditions != others:
+                text = (
+                    f"'{name}' holds the same as '{other}', at another current or temperature:"
+                    " one of them is not what was measured there"
+                )
             warnings.warn(text, CopyWarning, stacklevel=2)
         elif recording.force is not None and recording.force.any():
-            seen[content] = name
+            seen[measured] = name, conditions
         yield recording
 
 
 def check_once(recordings: Sequence[Recording]) -> None:
-    """Refuse a recording that is there twice, and warn of one that is under two names.
+    """Refuse a recording that is there twice, and warn of one as `each_once` does.
 
     Warns
     -----
     CopyWarning
-        A recording holds what another one holds.
+        A recording holds what another one holds, whatever current and temperature are stated.
     """
     if len({id(recording) for recording in recordings}) < len(recordings):
         raise InputError("a recording is given twice", wanted="each recording once")

@@ -1,7 +1,7 @@
 """From recordings to an identified model."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import Any, Literal
 
 import numpy as np
@@ -12,73 +12,18 @@ from .checks import choice, flag
 from .errors import InputError, MreError
 from .fits import exact, hybrid
 from .grouping import check_once, each_of, group_by_current
-from .measure import Fit, measure_fit
+from .identification import Identification
+from .measure import measure_fit
 from .minimise import draw_seed
 from .model import Level, Model
 from .results import StopReason, SwarmResult
 from .suitable import check_force
 from .swarms import afsa, mafsa, pso
 from .tested import largest_motion
-from .uncertainty import Bootstrap, Profile, Uncertainty, bootstrap, profile, uncertainty
+from .uncertainty import Uncertainty, uncertainty
 
 SWARMS: dict[str, Callable[..., SwarmResult]] = {"mafsa": mafsa, "afsa": afsa, "pso": pso}
 OPTIMIZERS = (*SWARMS, "exact", "hybrid")
-
-
-@dataclass(frozen=True)
-class Identification:
-    """An identified model and how it was found."""
-
-    model: Model
-    runs: tuple[SwarmResult, ...]
-    """One run for each group of recordings with the same constant current."""
-    fits: tuple[Fit, ...]
-    optimizer: str
-    seed: int
-    problems: tuple[Problem, ...] = field(repr=False)
-    """What each run solved."""
-
-    def profile(self, *, level: float = 0.95, threads: int | None = None) -> list[tuple[Profile, ...]]:
-        """Profile-likelihood intervals of every run: see `mre_core.profile`."""
-        pairs = zip(self.problems, self.runs, strict=True)
-        return [profile(problem, run.x, level=level, threads=threads) for problem, run in pairs]
-
-    def bootstrap(
-        self,
-        replicates: int = 1000,
-        *,
-        seed: int | None = None,
-        level: float = 0.95,
-        threads: int | None = None,
-    ) -> list[Bootstrap]:
-        """Bootstrap of every run, by default with the same seed: see `mre_core.bootstrap`."""
-        seed = self.seed if seed is None else seed
-        pairs = zip(self.problems, self.runs, strict=True)
-        return [
-            bootstrap(problem, run.x, replicates, seed=seed, level=level, threads=threads)
-            for problem, run in pairs
-        ]
-
-    @property
-    def interrupted(self) -> bool:
-        """True where Ctrl-C ended a run early."""
-        return any(run.reason is StopReason.INTERRUPTED for run in self.runs)
-
-    @property
-    def result(self) -> SwarmResult:
-        """The only run.
-
-        Raises
-        ------
-        ValueError
-            There are several.
-        """
-        if len(self.runs) != 1:
-            raise ValueError(f"there are {len(self.runs)} runs, one a current: see runs")
-        return self.runs[0]
-
-    def __str__(self) -> str:
-        return "\n".join(str(run) for run in self.runs)
 
 
 def identify(

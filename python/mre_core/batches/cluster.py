@@ -58,6 +58,7 @@ def cluster_engine(address: str, folder: Path, threads: int) -> Iterator[Engine]
     settings = {
         "distributed.comm.timeouts.connect": _PATIENCE,
         "distributed.worker.daemon": False,  # workers start processes
+        "distributed.worker.profile.enabled": False,  # a worker's own thread only waits for its process
         "distributed.admin.large-graph-warning-threshold": "1GiB",  # files that travel are meant to
     }
     with ExitStack() as stack:

@@ -4,6 +4,7 @@ import hashlib
 import os
 import warnings
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from os.path import realpath
 from pathlib import Path
@@ -73,7 +74,7 @@ def find_items(folder: str | os.PathLike[str], leave_out: Path | None = None) ->
     except OSError as error:
         problem = f"cannot be read: {error.strerror}"
         raise InputError(problem, file=str(root), wanted="a folder with recordings") from None
-    items: list[Item] = []
+    found: list[tuple[str, tuple[Path, ...]]] = []
     results: dict[Path, str] = {}
     for entry in entries:
         if leave_out is not None and realpath(entry) == realpath(leave_out):
@@ -83,10 +84,12 @@ def find_items(folder: str | os.PathLike[str], leave_out: Path | None = None) ->
         elif command := _written_by(entry):
             results[entry] = command
         elif entry.is_dir():
-            items.append(_item(entry.name, tuple(sorted(_recordings(entry, results)))))
+            found.append((entry.name, tuple(sorted(_recordings(entry, results)))))
         elif _is_known(entry):
-            items.append(_item(entry.name, (entry,)))
+            found.append((entry.name, (entry,)))
     said = [f"{path.relative_to(root).as_posix()}: results of mre-core {c}" for path, c in results.items()]
+    with ThreadPoolExecutor(os.cpu_count()) as pool:  # nobody works yet, and hashing does not hold up Python
+        items = list(pool.map(lambda one: _item(*one), found))
     if not any(item.files for item in items):
         wanted = f"files that end in {', '.join(READERS)}, or sub-folders with such"
         others = f" ({listed(said)})" if said else ""

@@ -8,7 +8,7 @@ import numpy as np
 
 from .._core import Recording
 from ..diagnosis import Diagnosis
-from ..identify import Identification
+from ..identification import Identification
 from ..model import Model
 from ..tested import largest_motion
 from ..uncertainty import Bootstrap

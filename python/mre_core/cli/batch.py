@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from ..output import Stage
 
 _OF_A_SWARM = ("fish", "iterations")
+_OF_A_DIAGNOSIS = ("false_alarm", "fixed")
+_OF_AN_IDENTIFICATION = ("optimizer", "bounds", "weights", "bootstrap", *_OF_A_SWARM)
 _SHOWN = 20
 """Failed items that are shown; all are in the table."""
 
@@ -114,10 +116,6 @@ def batch(
     elif not quiet:
         _print(results, out)
     return 0 if (results["status"] == "done").any() else 1
-
-
-_OF_A_DIAGNOSIS = ("false_alarm", "fixed")
-_OF_AN_IDENTIFICATION = ("optimizer", "bounds", "weights", "bootstrap", *_OF_A_SWARM)
 
 
 def _check(options: Mapping[str, Any]) -> None:

@@ -1,20 +1,18 @@
 """``mre-core laws``."""
 
-import warnings
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from ..errors import InputError, listed
+from .again import Again, quietly
 from .arguments import load_each, read_bounds, read_interval, read_parts
 from .options import common_options, fit_options, report_options, trim_options
 
 if TYPE_CHECKING:
     from .._core import Recording
-    from ..current_laws.fit import LawFit
-    from ..measure import Fit
 
 
 @click.command()
@@ -83,6 +81,7 @@ def laws(
     from ..output import Stage, staged, to_json
     from .progress import steps
     from .settings import write_settings
+    from .show_laws import show_laws
 
     interval = None if cut is None else read_interval(cut)
     parts = read_parts(exclude)
@@ -98,7 +97,7 @@ def laws(
             reading,
             on_file=lambda done, count: on_step(what, done, count),
         )
-        for file in _quietly(loaded) if again else loaded:  # what there is to say has been said
+        for file in quietly(loaded) if again else loaded:  # what there is to say has been said
             for found in file:
                 found = found if interval is None else found.cut(*interval)
                 yield found.exclude(*parts) if parts else found
@@ -113,7 +112,7 @@ def laws(
                 if done < count
                 else on_step("fitting the laws chosen", 0, 1)
             )
-            kept = _Again(lambda again: _others(read(again=again), over, predict))
+            kept = Again(lambda again: _others(read(again=again), over, predict))
             found = fit_laws(kept, model, _laws(laws), shared, **settings)
             left_out = [] if predict is None else (r for r in read(again=True) if _is_at(r, over, predict))
             predicted = [measure_fit(found.model, recording) for recording in left_out]
@@ -127,45 +126,8 @@ def laws(
     if as_json:
         click.echo(to_json(content), nl=False)
     elif not quiet:
-        _print(found, predicted)
+        show_laws(found, predicted)
     return 0
-
-
-class _Again:
-    """Recordings that are read anew whenever they are gone through, and have to be the same then."""
-
-    def __init__(self, read: "Callable[[bool], Iterator[Recording]]") -> None:
-        self._read = read
-        self._first: list[bytes] = []
-        self._again = False
-
-    def __iter__(self) -> "Iterator[Recording]":
-        from ..grouping import content_of
-
-        again, self._again = self._again, True
-        for place, recording in enumerate(self._read(again)):
-            content = content_of(recording)
-            if not again:
-                self._first.append(content)
-            elif place >= len(self._first) or content != self._first[place]:
-                raise InputError(
-                    f"recording '{recording.name}' changed while it was read",
-                    wanted="files that nobody writes to",
-                )
-            yield recording
-
-
-def _quietly(files: "Iterable[list[Recording]]") -> "Iterator[list[Recording]]":
-    """Go through files without the warnings that reading them gives."""
-    rest = iter(files)
-    while True:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            try:
-                found = next(rest)
-            except StopIteration:
-                return
-        yield found
 
 
 def _others(recordings: "Iterable[Recording]", over: str, level: float | None) -> "Iterator[Recording]":
@@ -203,44 +165,3 @@ def _laws(texts: tuple[str, ...]) -> dict[str, str]:
             raise InputError(f"--law {text}", wanted="--law NAME=LAW, each name once")
         found[name] = kind
     return found
-
-
-def _print(found: "LawFit", predicted: "list[Fit]") -> None:
-    """Values of every law, errors of the fit and of what was left out."""
-    from rich.table import Table
-
-    from ..current_laws.variable import UNITS
-    from .escape import escape
-    from .show import console
-
-    over, unit = found.model.over, UNITS[found.model.over]
-    out = console()
-    table = Table(title=f"{found.model.name}, laws over the {over}", title_justify="left")
-    for column in ("parameter", "law", f"at / {unit}", "value", "unit", "95 % interval"):
-        table.add_column(column, justify="right" if column == "value" else "left")
-    for row in found.rows():
-        at = "all" if row["at"] is None else f"{row['at']:g}"
-        interval = row["note"] if row["low"] is None else f"{row['low']:.5g} to {row['high']:.5g}"
-        table.add_row(row["parameter"], row["law"], at, f"{row['value']:.5g}", row["unit"], interval)
-    out.print(table)
-    table = Table(title="rms error / % of the force's rms", title_justify="left")
-    for column in (f"{over} / {unit}", "fitted", "predicted from the others"):
-        table.add_column(column, justify="right")
-    left_out = found.left_out.by_level if found.left_out is not None else {}
-    for level, error in found.by_level.items():
-        other = f"{100 * left_out[level]:.3g}" if level in left_out else ""
-        shown = escape(level) if isinstance(level, str) else f"{level:g}"
-        table.add_row(shown, f"{100 * error:.3g}", other)
-    out.print(table)
-    out.print(f"rms error {found.rms:.4g} N, {100 * found.relative_rms:.3g} % of the force's rms")
-    for sentence in found.words:
-        out.print(f"{sentence}.")
-    if not predicted:
-        return
-    table = Table(title="predicted, not fitted", title_justify="left")
-    for column in ("recording", "current / A", "rms error / N", "% of the force"):
-        table.add_column(column, justify="right" if column != "recording" else "left")
-    for fit in predicted:
-        current = "" if fit.current is None else f"{fit.current:g}"
-        table.add_row(fit.recording, current, f"{fit.rms:.4g}", f"{100 * fit.relative_rms:.3g}")
-    out.print(table)

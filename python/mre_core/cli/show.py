@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from ..diagnosis import Diagnosis
-    from ..identify import Identification
+    from ..identification import Identification
     from ..results import SwarmResult
     from ..uncertainty import Bootstrap, Profile
 

@@ -11,9 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .campaign import Campaign, Changing
+from .campaign import Campaign
 from .joint import Joint, fit
 from .law import FEWEST, LAWS, Law
+from .parts import Changing
 
 _WORTH = 0.99
 """A law with more values has to bring the error down to this share."""

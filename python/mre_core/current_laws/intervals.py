@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from .. import _core
 from .._core import Recording
 from ..grouping import each_of
-from .bounds import box_of, is_at
+from .bounds import bound_of, box_of, is_fixed, physical_of
 from .campaign import Campaign, weight_of
 from .joint import Joint
 from .tangents import Value, slopes, tangents, values_of
@@ -51,7 +51,7 @@ class Spread:
             if known:
                 reach = self.quantile * float(np.sqrt(slope @ self.covariance[part, part] @ slope))
                 value = float(p.at(level)[0])
-                found[name] = _within(self.limits, name, (value - reach, value + reach))
+                found[name] = _within(self.limits[name], (value - reach, value + reach))
         return found
 
 
@@ -92,7 +92,7 @@ def read_spread(
         total += weight * len(force)
         first += weight * float(np.sum(force))
         second += weight * float(np.sum(force**2))
-    open_ = np.array([not _fixed(campaign, value) for value in values])
+    open_ = np.array([not is_fixed(campaign, value) for value in values])
     free = np.flatnonzero(open_ & (np.diag(plain) > 0))
     freedom = max(independent - len(free), 1.0)
     covariance = np.zeros((size, size))
@@ -104,7 +104,8 @@ def read_spread(
     little = np.full(size, np.inf)
     little[free] = _LITTLE * about_mean / np.sqrt(np.diag(plain)[free] / total)
     intervals = _intervals(campaign, values, covariance, quantile, little, set(free.tolist()))
-    return Spread(values, intervals, covariance, quantile, campaign.structure.limits(np.inf))
+    limits = {name: physical_of(campaign, name) for name in campaign.structure.names}
+    return Spread(values, intervals, covariance, quantile, limits)
 
 
 def independent_samples(
@@ -141,35 +142,24 @@ def _intervals(
         low, high = box_of(campaign, value)
         reach = quantile * errors[i]
         small = (reach < abs(value.value) or errors[i] < little[i]) and 2 * reach < high - low
-        loose.append(not small and not _fixed(campaign, value) if i in free else not _fixed(campaign, value))
+        loose.append(
+            not small and not is_fixed(campaign, value) if i in free else not is_fixed(campaign, value)
+        )
     scale = np.where(errors > 0, errors, 1.0)
     correlation = np.abs(covariance / np.outer(scale, scale))
     found: list[Interval | None] = []
     for i, value in enumerate(values):
         tied = any(loose[j] and correlation[i, j] > _TIED for j in range(len(values)) if j != i)
-        if i not in free or loose[i] or tied or _held(campaign, value):
+        bound = bound_of(campaign, value)
+        held = bound is not None and not bound.physical
+        if i not in free or loose[i] or tied or held:
             found.append(None)
             continue
         reach = quantile * float(errors[i])
         reached = (value.value - reach, value.value + reach)
-        found.append(_within(campaign.structure.limits(np.inf), value.parameter, reached))
+        found.append(_within(physical_of(campaign, value.parameter), reached))
     return tuple(found)
 
 
-def _within(limits: Mapping[str, Interval], parameter: str, interval: Interval) -> Interval:
-    low, high = limits.get(parameter, (-np.inf, np.inf))
-    return max(interval[0], low), min(interval[1], high)
-
-
-def _fixed(campaign: Campaign, value: Value) -> bool:
-    low, high = box_of(campaign, value)
-    return low == high
-
-
-def _held(campaign: Campaign, value: Value) -> bool:
-    """Tell whether a value lies on a bound that is no physical limit."""
-    physical = campaign.structure.limits(np.inf).get(value.parameter, (-np.inf, np.inf))
-    return any(
-        end != limit and is_at(value, end)
-        for end, limit in zip(box_of(campaign, value), physical, strict=True)
-    )
+def _within(limits: Interval, interval: Interval) -> Interval:
+    return max(interval[0], limits[0]), min(interval[1], limits[1])

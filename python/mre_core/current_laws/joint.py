@@ -9,9 +9,10 @@ from numpy.typing import NDArray
 
 from .._core import Problem
 from ..fits import hybrid
-from .campaign import Campaign, Steady
+from .campaign import Campaign
 from .factors import DirectFactor, triangle
 from .law import Dependence, Law
+from .parts import Steady
 
 Array = NDArray[np.float64]
 _GRID = 25

@@ -13,7 +13,7 @@ from .series import Series, pack
 
 if TYPE_CHECKING:
     from .._core import Recording
-    from ..identify import Identification
+    from ..identification import Identification
     from ..uncertainty import Bootstrap, Profile
 
 

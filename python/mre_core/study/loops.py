@@ -5,7 +5,8 @@ from typing import Any
 import numpy as np
 
 from ..crew import Crew
-from ..identify import Identification, identify
+from ..identification import Identification
+from ..identify import identify
 from ..model import simulate
 from .campaign import Case
 from .paper import RELATIVE_ERROR
