@@ -1,5 +1,6 @@
 //! The recordings of a diagnosis, with what effects need of them.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use rayon::prelude::*;
@@ -15,6 +16,7 @@ pub struct Campaign {
     recordings: Vec<Arc<Recording>>,
     accelerations: Vec<Vec<f64>>,
     currents: Vec<Option<Vec<f64>>>,
+    corners: Vec<Vec<Range<usize>>>,
     before: Vec<f64>,
     sizes: Sizes,
 }
@@ -35,9 +37,10 @@ impl Campaign {
             }
             evenly_sampled(recording)?;
         }
-        let recordings: Vec<Arc<Recording>> = recordings.into_par_iter().map(|r| of_one_motion(&r)).collect();
+        let (recordings, corners): (Vec<Arc<Recording>>, _) =
+            recordings.into_par_iter().map(|r| of_one_motion(&r)).unzip();
         let sizes = Sizes::of(recordings.iter().map(AsRef::as_ref));
-        Ok(Self::with_sizes(recordings, sizes))
+        Ok(Self::with_sizes(recordings, sizes).leaving_out(corners))
     }
 
     /// The same for a simulation, with the sizes of the recordings that the effects were fitted to.
@@ -56,7 +59,19 @@ impl Campaign {
                 start
             })
             .collect();
-        Self { recordings, accelerations, currents, before, sizes }
+        let corners = vec![Vec::new(); recordings.len()];
+        Self { recordings, accelerations, currents, corners, before, sizes }
+    }
+
+    /// The same with other corners, by recording.
+    #[must_use]
+    pub(crate) fn leaving_out(self, corners: Vec<Vec<Range<usize>>>) -> Self {
+        Self { corners, ..self }
+    }
+
+    /// Samples near a corner of a motion whose velocity is derived: it is wrong there, and no fit counts them.
+    pub(crate) fn corners(&self) -> &[Vec<Range<usize>>] {
+        &self.corners
     }
 
     /// The same with other sizes.
@@ -92,19 +107,21 @@ impl Campaign {
     }
 }
 
-/// A recording whose displacement is the one that its velocity is the slope of, without the noise of the two.
+/// A recording whose displacement is the one that its velocity is the slope of, without the noise of the two; and
+/// the corners where that velocity is wrong.
 ///
 /// Otherwise that noise, which the force does not follow, could be told from the two, and every effect with
 /// memory would seem to explain it.
-fn of_one_motion(recording: &Recording) -> Arc<Recording> {
+fn of_one_motion(recording: &Recording) -> (Arc<Recording>, Vec<Range<usize>>) {
     let (time, x, v) = (recording.time(), recording.displacement(), recording.velocity());
-    let (displacement, velocity) = if recording.velocity_window().is_some() {
-        (velocity::from_displacement(time, x).displacement, v.to_vec())
+    let (displacement, velocity, corners) = if recording.velocity_window().is_some() {
+        let derived = velocity::from_displacement(time, x);
+        (derived.displacement, v.to_vec(), derived.corners)
     } else {
         let v = velocity::smoothed(time, v);
-        (velocity::without_noise(time, x, &v), v)
+        (velocity::without_noise(time, x, &v), v, Vec::new())
     };
-    Arc::new(recording.seen_with(displacement, velocity, None))
+    (Arc::new(recording.seen_with(displacement, velocity, None)), corners)
 }
 
 fn current(recording: &Recording) -> Option<Vec<f64>> {

@@ -157,7 +157,7 @@ fn simulated(found: &Diagnosis, force: &[Vec<f64>], seed: u64, number: usize) ->
     });
     let recordings: Vec<_> = recordings.collect();
     let sizes = Sizes::of(recordings.iter().map(AsRef::as_ref));
-    Campaign::with_sizes(recordings, sizes)
+    Campaign::with_sizes(recordings, sizes).leaving_out(known.corners().to_vec())
 }
 
 /// Tells nothing of the stages inside one campaign.

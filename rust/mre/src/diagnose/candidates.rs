@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use super::begin::starts;
 use super::coherent::without_the_coherent;
 use super::drift;
+use super::gaps::LeftOut;
 use super::held::Held;
 use super::least_squares::{Data, Fitted, refine, refine_at_most};
 use super::noise::Noise;
@@ -15,7 +16,7 @@ use super::point::forces;
 use super::screen::Score;
 use super::settings::Settings;
 use super::starts::without_initial_state;
-use crate::assembly::Assembly;
+use crate::assembly::{Assembly, Campaign};
 use crate::effect::{CATALOGUE, Effect};
 use crate::recording::Recording;
 
@@ -75,9 +76,17 @@ pub(super) fn steps(assembly: &Assembly) -> Vec<f64> {
 
 /// Residuals in N of a fit, of the samples that are scored, less what unknown initial states explain of them.
 pub(super) fn residuals(assembly: &Assembly, data: Data, fitted: &Fitted) -> Vec<Vec<f64>> {
-    let recordings = assembly.campaign().recordings().iter();
-    let left = recordings.zip(forces(assembly, data, fitted)).map(|(r, force)| of_the_scored(r, &force));
+    let forces = forces(assembly, data, fitted);
+    let left = forces.iter().enumerate().map(|(r, force)| residual(assembly.campaign(), r, force));
     left.enumerate().map(|(r, left)| without_initial_state(assembly, r, left)).collect()
+}
+
+/// Measured less modelled force in N, of the samples of a recording that are scored; where these tell nothing, as
+/// around there.
+pub(super) fn residual(campaign: &Campaign, r: usize, force: &[f64]) -> Vec<f64> {
+    let mut left = of_the_scored(&campaign.recordings()[r], force);
+    LeftOut::of(campaign, r).bridge(&mut left);
+    left
 }
 
 /// Measured less modelled force in N, of the samples that are scored.
@@ -90,10 +99,12 @@ pub(super) fn of_the_scored(recording: &Recording, force: &[f64]) -> Vec<f64> {
 pub(super) fn noise_left(assembly: &Assembly, data: Data, fitted: &Fitted) -> Noise {
     let freedom = fitted.parameters();
     let left = residuals(assembly, data, fitted);
-    match plain_mismatch::find(assembly, &left, data.noise) {
-        Some(size) => Noise::beside_a_mismatch(left.len(), size),
-        None => Noise::of(&without_the_coherent(assembly, left), &steps(assembly), freedom),
+    if let Some(size) = plain_mismatch::find(assembly, &left, data.noise) {
+        return Noise::beside_a_mismatch(left.len(), size);
     }
+    let campaign = assembly.campaign();
+    let left_out: Vec<LeftOut> = (0..left.len()).map(|r| LeftOut::of(campaign, r)).collect();
+    Noise::of(&without_the_coherent(assembly, left), &steps(assembly), freedom, &left_out)
 }
 
 /// Scores of every law beside a fitted model.

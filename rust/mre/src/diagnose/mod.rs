@@ -19,6 +19,7 @@ mod distribution;
 mod drift;
 mod exchange;
 mod features;
+mod gaps;
 mod held;
 mod hum;
 mod intervals;

@@ -12,6 +12,7 @@ use rayon::prelude::*;
 
 use super::autoregression::{Choice, Products};
 use super::drift::without_drift;
+use super::gaps::{Gaps, LeftOut};
 use super::hum::without_hum;
 use crate::kernel::filter::{dot, prediction_error};
 
@@ -22,6 +23,7 @@ const SAME_RATE: f64 = 0.01;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Noise {
     filters: Vec<Filter>,
+    gaps: Vec<Gaps>,
     /// True where a mismatch is so large that the noise cannot be told from it.
     hidden: bool,
 }
@@ -35,8 +37,8 @@ struct Filter {
 
 impl Noise {
     /// Noise of residuals in N; `steps` are the time steps in s, `freedom` the parameters that were fitted
-    /// to all residuals together.
-    pub fn of(residuals: &[Vec<f64>], steps: &[f64], freedom: usize) -> Self {
+    /// to all residuals together, and `left_out` the samples of each recording that tell nothing.
+    pub(super) fn of(residuals: &[Vec<f64>], steps: &[f64], freedom: usize, left_out: &[LeftOut]) -> Self {
         let residuals = &without_drift(residuals)[..];
         let products: Vec<Products> = residuals
             .par_iter()
@@ -45,6 +47,7 @@ impl Noise {
             .collect();
         let total: usize = residuals.iter().map(Vec::len).sum();
         let mut filters: Vec<Option<Filter>> = vec![None; residuals.len()];
+        let mut gaps = vec![Gaps::none(); residuals.len()];
         for r in 0..residuals.len() {
             if filters[r].is_some() {
                 continue;
@@ -61,16 +64,17 @@ impl Noise {
                 let share = freedom as f64 * residuals[*s].len() as f64 / total as f64;
                 let members = if shared { alike.len() } else { 1 };
                 let used = share + choice.coefficients.len() as f64 / members as f64;
-                filters[*s] = Some(Filter::of(&residuals[*s], steps[*s], choice.coefficients.clone(), used));
+                let (filter, gap) = Filter::of(&residuals[*s], steps[*s], choice, used, &left_out[*s]);
+                (filters[*s], gaps[*s]) = (Some(filter), gap);
             }
         }
-        Self { filters: filters.into_iter().flatten().collect(), hidden: false }
+        Self { filters: filters.into_iter().flatten().collect(), gaps, hidden: false }
     }
 
     /// White noise of one size in N in all recordings.
     pub fn white(recordings: usize, deviation: f64) -> Self {
         let filter = Filter { coefficients: Vec::new(), scale: 1.0 / deviation };
-        Self { filters: vec![filter; recordings], hidden: false }
+        Self { filters: vec![filter; recordings], gaps: vec![Gaps::none(); recordings], hidden: false }
     }
 
     /// Noise that a plain mismatch hides: fits then make the rms error of the force smallest.
@@ -88,7 +92,9 @@ impl Noise {
     pub(super) fn with_another_like(&self, r: usize) -> Self {
         let mut filters = self.filters.clone();
         filters.push(filters[r].clone());
-        Self { filters, hidden: self.hidden }
+        let mut gaps = self.gaps.clone();
+        gaps.push(Gaps::none());
+        Self { filters, gaps, hidden: self.hidden }
     }
 
     /// Number of samples lost at the start of a recording.
@@ -99,7 +105,9 @@ impl Noise {
     /// What the noise of a recording cannot predict of a series, in standard deviations; its first value
     /// belongs to sample [`Noise::lost`].
     pub fn whiten(&self, r: usize, series: &[f64]) -> Vec<f64> {
-        prediction_error(series, &self.filters[r].coefficients, self.filters[r].scale)
+        let mut white = prediction_error(series, &self.filters[r].coefficients, self.filters[r].scale);
+        self.gaps[r].leave_out(&mut white);
+        white
     }
 
     /// Coefficients of the autoregression of a recording, and the standard deviation in N of what it cannot
@@ -110,14 +118,19 @@ impl Noise {
 }
 
 impl Filter {
-    fn of(residual: &[f64], step: f64, coefficients: Vec<f64>, used: f64) -> Self {
+    fn of(residual: &[f64], step: f64, choice: &Choice, used: f64, left_out: &LeftOut) -> (Self, Gaps) {
+        let coefficients = choice.coefficients.clone();
         let floor = dot(residual, residual) / residual.len() as f64;
-        let errors = prediction_error(&without_hum(residual, step), &coefficients, 1.0);
-        let left = (errors.len() as f64 - used).max(0.5 * errors.len() as f64);
+        let mut errors = prediction_error(&without_hum(residual, step), &coefficients, 1.0);
+        let [_, gaps] = left_out.gaps(&coefficients, 1.0);
+        gaps.leave_out(&mut errors);
+        let left = (errors.len() as f64 - used - gaps.count() as f64).max(0.5 * errors.len() as f64);
         let variance = dot(&errors, &errors) / left;
         // A residual of zeros is no noise: keep the numbers finite.
         let variance = variance.max(1e-24 * floor).max(f64::MIN_POSITIVE);
-        Self { coefficients, scale: 1.0 / variance.sqrt() }
+        let scale = 1.0 / variance.sqrt();
+        let [whole, _] = left_out.gaps(&coefficients, scale);
+        (Self { coefficients, scale }, whole)
     }
 }
 
@@ -148,7 +161,8 @@ mod tests {
         for t in 1..y.len() {
             y[t] = 0.9 * y[t - 1] + 0.5 * shocks[t];
         }
-        let noise = Noise::of(&[y.clone()], &[0.1], 0);
+        let all = LeftOut { ranges: &[], scored: 0..y.len(), length: y.len() };
+        let noise = Noise::of(&[y.clone()], &[0.1], 0, &[all]);
         let (a, sigma) = noise.autoregression(0);
         assert!(!a.is_empty() && (a[0] - 0.9).abs() < 0.02, "{a:?}");
         assert!(a[1..].iter().all(|a| a.abs() < 0.03), "{a:?}");

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::candidates::of_the_scored;
+use super::candidates::residual;
 use super::least_squares::Data;
 use super::normal::whitened;
 use super::point::Point;
@@ -72,9 +72,8 @@ impl<'a> Null<'a> {
 
     /// Residuals of the fitted model in N, of the samples that are scored.
     pub(super) fn residuals(&self) -> Vec<Vec<f64>> {
-        let recordings = self.assembly.campaign().recordings();
-        let pairs = recordings.iter().zip(&self.point.recordings);
-        pairs.map(|(r, local)| of_the_scored(r, &local.force)).collect()
+        let forces = self.point.recordings.iter().enumerate();
+        forces.map(|(r, local)| residual(self.assembly.campaign(), r, &local.force)).collect()
     }
 
     /// What effects see of a recording.

@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::gaps::LeftOut;
 use super::least_squares::{Data, Fitted, refine};
 use super::monitor::Monitor;
 use super::noise::Noise;
@@ -52,7 +53,9 @@ pub(super) fn prove(
                 } else {
                     measured.iter().zip(&point.recordings[r].force).map(|(f, m)| f - m).collect()
                 };
+                let left_out = LeftOut::of(assembly.campaign(), r);
                 let sum = |rows: &Rows| {
+                    let rows = left_out.spare(rows);
                     let all = rows.iter().flat_map(|range| &error[range.clone()]);
                     let count = rows.iter().map(ExactSizeIterator::len).sum();
                     (all.map(|e| e * e).sum::<f64>(), count)

@@ -132,15 +132,12 @@ impl Recording {
         self.velocity_window
     }
 
-    /// Step in s of the even grid that the times are on, as rounded ones are: within three quarters of a step.
+    /// Step in s of the even grid that the times are on.
     ///
     /// # Errors
-    /// The first sample that is off the grid.
+    /// As [`even_step`].
     pub(crate) fn even_step(&self) -> std::result::Result<f64, usize> {
-        let time = &self.series.time;
-        let step = (time[time.len() - 1] - time[0]) / (time.len() - 1) as f64;
-        let off = |i: usize| (time[i] - time[0] - step * i as f64).abs() > OFF_THE_GRID * step;
-        (0..time.len()).find(|i| off(*i)).map_or(Ok(step), Err)
+        even_step(&self.series.time)
     }
 
     /// True where a step of time is the same everywhere, but for rounding.
@@ -217,6 +214,16 @@ impl Recording {
         }
         seen
     }
+}
+
+/// Step in s of the even grid that times are on, as rounded ones are: within three quarters of a step.
+///
+/// # Errors
+/// The first sample that is off the grid.
+pub(crate) fn even_step(time: &[f64]) -> std::result::Result<f64, usize> {
+    let step = (time[time.len() - 1] - time[0]) / (time.len() - 1) as f64;
+    let off = |i: usize| (time[i] - time[0] - step * i as f64).abs() > OFF_THE_GRID * step;
+    (0..time.len()).find(|i| off(*i)).map_or(Ok(step), Err)
 }
 
 /// Arithmetic mean.

@@ -2,7 +2,7 @@
 
 /// Coefficients of the polynomial. A cubic has to take a window so short, where motion is curved, that it lets four
 /// times as much noise into the velocity.
-const TERMS: usize = 8;
+pub(super) const TERMS: usize = 8;
 /// Samples at a time.
 const LANES: usize = 8;
 
@@ -23,8 +23,8 @@ pub(super) struct Local {
 }
 
 impl Local {
-    /// The fit to `half` samples on either side of sample `i`.
-    pub(super) fn fit(time: &[f64], displacement: &[f64], i: usize, half: usize) -> Self {
+    /// The fit of at most so many `terms` to `half` samples on either side of sample `i`.
+    pub(super) fn fit(time: &[f64], displacement: &[f64], i: usize, half: usize, terms: usize) -> Self {
         let last = time.len() - 1;
         // At the ends the window is shifted, not shortened, so that the noise stays bounded.
         let start = i.saturating_sub(half).min(last.saturating_sub(2 * half));
@@ -54,7 +54,7 @@ impl Local {
         let moments = moments.map(|lanes| lanes.iter().sum::<f64>());
         let right = right.map(|lanes| lanes.iter().sum());
         // A short recording has a lower degree: its other rows are those of the identity.
-        let terms = TERMS.min(stop - start);
+        let terms = terms.min(stop - start);
         let used = |column: [f64; TERMS]| Column::from_fn(|r, _| if r < terms { column[r] } else { 0.0 });
         // T_r T_c = (T_(r+c) + T_|r-c|) / 2: one pass gives the whole matrix.
         let matrix = Square::from_fn(|r, c| {

@@ -8,14 +8,22 @@
 //!
 //! Known limit: displacement noise that is itself smooth cannot be told from motion.
 
+mod corners;
 mod local;
+mod window;
 
-use rayon::prelude::*;
+use std::ops::Range;
 
-use local::{Local, NARROWEST};
+use crate::recording::even_step;
+use corners::corners;
+use local::{NARROWEST, TERMS};
+use window::Window;
 
-/// Samples over which the window is chosen; more add cost, not certainty.
-const TRIAL_SAMPLES: usize = 4_000;
+/// Terms of the polynomials that are tried between corners.
+const PART_TERMS: [usize; 3] = [2, 4, TERMS];
+
+/// Between corners there are more than so many times as many samples for each term.
+const CALMER: f64 = 2.0;
 
 /// Widest half window in samples of what a displacement has beside its velocity.
 const WIDEST: usize = 200;
@@ -35,6 +43,9 @@ pub struct Derived {
     pub displacement: Vec<f64>,
     /// Length of the window in s.
     pub window: f64,
+    /// Samples that have a corner of the motion in their window, on an even grid: their velocity is not to be
+    /// trusted.
+    pub corners: Vec<Range<usize>>,
 }
 
 /// Velocity in mm/s at every sample of a displacement in mm at strictly increasing times in s.
@@ -42,7 +53,15 @@ pub struct Derived {
 /// # Panics
 /// Never for at least five samples of equal count in both slices.
 pub fn from_displacement(time: &[f64], displacement: &[f64]) -> Derived {
-    smooth(time, displacement, usize::MAX)
+    let window = Window::best(time, displacement, usize::MAX, &[TERMS]);
+    let (velocity, smooth) = window.over(time, displacement);
+    let step = (time[time.len() - 1] - time[0]) / (time.len() - 1) as f64;
+    let length = 2.0 * window.half as f64 * step;
+    let mut derived = Derived { velocity, displacement: smooth, window: length, corners: Vec::new() };
+    if even_step(time).is_ok() {
+        between_corners(&mut derived, time, displacement, window);
+    }
+    derived
 }
 
 /// Displacement in mm less the noise that a recorded velocity in mm/s does not share.
@@ -52,7 +71,7 @@ pub fn from_displacement(time: &[f64], displacement: &[f64]) -> Derived {
 pub fn without_noise(time: &[f64], displacement: &[f64], velocity: &[f64]) -> Vec<f64> {
     let travelled = integral(time, velocity);
     let beside: Vec<f64> = displacement.iter().zip(&travelled).map(|(x, s)| x - s).collect();
-    let kept = smooth(time, &beside, WIDEST).displacement;
+    let kept = smooth(time, &beside, WIDEST);
     let found: Vec<f64> = kept.iter().zip(&travelled).map(|(d, s)| d + s).collect();
     // The integral has an error as well.
     if apart(&found, displacement) { found } else { displacement.to_vec() }
@@ -60,7 +79,7 @@ pub fn without_noise(time: &[f64], displacement: &[f64], velocity: &[f64]) -> Ve
 
 /// A recorded velocity in mm/s less its noise, where it has some everywhere: jumps are none.
 pub fn smoothed(time: &[f64], velocity: &[f64]) -> Vec<f64> {
-    let found = smooth(time, velocity, WIDEST).displacement;
+    let found = smooth(time, velocity, WIDEST);
     let mut taken: Vec<f64> = found.iter().zip(velocity).map(|(a, b)| (a - b).powi(2)).collect();
     let mean = taken.iter().sum::<f64>() / taken.len() as f64;
     let middle = taken.len() / 2;
@@ -92,58 +111,40 @@ fn integral(time: &[f64], values: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-fn smooth(time: &[f64], displacement: &[f64], widest: usize) -> Derived {
-    let half = best_half_width(time, displacement, widest);
-    let local = |i: usize| {
-        let local = Local::fit(time, displacement, i, half);
-        (local.slope, local.value)
-    };
-    let (velocity, displacement) = (0..time.len()).into_par_iter().map(local).unzip();
-    let step = (time[time.len() - 1] - time[0]) / (time.len() - 1) as f64;
-    Derived { velocity, displacement, window: 2.0 * half as f64 * step }
+/// A series less its noise, over windows of at most this half width.
+fn smooth(time: &[f64], series: &[f64], widest: usize) -> Vec<f64> {
+    Window::best(time, series, widest, &[TERMS]).over(time, series).1
 }
 
-fn best_half_width(time: &[f64], displacement: &[f64], widest: usize) -> usize {
-    let n = time.len();
-    let stride = n.div_ceil(TRIAL_SAMPLES);
-    let mut best = (f64::INFINITY, 0);
-    for half in candidates(((n - 1) / 2).min(widest)) {
-        let score = cross_validation(time, displacement, half, stride);
-        // A wider window wins ties: it carries less noise into the velocity.
-        if score <= best.0 {
-            best = (score, half);
-        } else if score > 4.0 * best.0 {
-            break;
-        }
-    }
-    best.1
-}
-
-/// Half widths in samples, about a quarter apart.
-fn candidates(largest: usize) -> Vec<usize> {
-    let mut widths = vec![NARROWEST.min(largest)];
-    while let Some(&last) = widths.last() {
-        let next = last + 1 + last / 4;
-        if next > largest {
-            break;
-        }
-        widths.push(next);
-    }
-    widths
-}
-
-fn cross_validation(time: &[f64], displacement: &[f64], half: usize, stride: usize) -> f64 {
-    let picked: Vec<usize> = (0..time.len()).step_by(stride).collect();
-    let errors: Vec<(f64, f64)> = picked
-        .par_iter()
-        .map(|&i| {
-            let local = Local::fit(time, displacement, i, half);
-            ((displacement[i] - local.value).powi(2), local.leverage)
+/// Between true corners the motion is smoother than with them: there it is smoothed part by part. Otherwise there
+/// are no corners.
+fn between_corners(derived: &mut Derived, time: &[f64], displacement: &[f64], whole: Window) {
+    let corners = corners(displacement, &derived.displacement, whole.half);
+    let parts: Vec<(Range<usize>, Window)> = corners
+        .windows(2)
+        .map(|pair| pair[0].end..pair[1].start)
+        .filter(|part| part.len() > 2 * NARROWEST)
+        .map(|part| {
+            let (time, x) = (&time[part.clone()], &displacement[part.clone()]);
+            (part, Window::best(time, x, usize::MAX, &PART_TERMS))
         })
         .collect();
-    let count = errors.len() as f64;
-    let (squares, leverage) = errors.iter().fold((0.0, 0.0), |sum, e| (sum.0 + e.0, sum.1 + e.1));
-    (squares / count) / (1.0 - leverage / count).powi(2)
+    let (mut calm, mut all) = (0, 0);
+    for (part, own) in &parts {
+        all += part.len();
+        if own.calm() > CALMER * whole.calm() {
+            calm += part.len();
+        }
+    }
+    if 2 * calm < all {
+        return;
+    }
+    for (part, own) in parts {
+        let (velocity, smooth) = own.over(&time[part.clone()], &displacement[part.clone()]);
+        derived.velocity[part.clone()].copy_from_slice(&velocity);
+        derived.displacement[part].copy_from_slice(&smooth);
+    }
+    derived.corners = corners;
 }
 
 #[cfg(test)]

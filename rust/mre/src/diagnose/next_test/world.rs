@@ -52,7 +52,9 @@ impl World {
         if signal.current.is_some() && !known.sizes().current_varies {
             return None;
         }
-        Some(Self { campaign: Campaign::with_sizes(recordings, known.sizes().clone()), base })
+        let corners = known.corners().iter().cloned().chain([Vec::new()]).collect();
+        let campaign = Campaign::with_sizes(recordings, known.sizes().clone()).leaving_out(corners);
+        Some(Self { campaign, base })
     }
 
     pub(super) fn campaign(&self) -> &Campaign {

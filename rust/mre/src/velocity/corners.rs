@@ -1,0 +1,136 @@
+//! Corners of a motion: within a window of them no smooth polynomial gives the velocity.
+
+use std::ops::Range;
+
+use super::local::{Local, TERMS};
+
+/// Share of the squares around a corner that a broken line leaves at most. Of a sine it leaves 1.28 % at least, at
+/// any length of the window; of several tones it may leave less.
+const SHARE: f64 = 0.011;
+/// What a straight line leaves outside the window at most: so many variances of the noise, and this share of how
+/// far the motion goes there.
+const NOISE: f64 = 2.0;
+const STRAIGHT: f64 = 1e-3;
+/// Median of the square of a normal variable of variance one.
+const GAUSSIAN: f64 = 0.455;
+
+/// Samples within `half` samples of a corner, as ranges in rising order that do not touch.
+///
+/// `displacement` in mm on an even grid, `smooth` what polynomials over windows of this half width make of it. At a
+/// corner two straight lines meet, which the window may round: it is looked at over twice the window, and only the
+/// even part around it tells it from a smooth motion.
+pub(super) fn corners(displacement: &[f64], smooth: &[f64], half: usize) -> Vec<Range<usize>> {
+    let reach = 2 * half;
+    let variance = variance(displacement, smooth, half);
+    let last = displacement.len();
+    let mut found: Vec<Range<usize>> = Vec::new();
+    for i in reach..last.saturating_sub(reach) {
+        let around: Vec<f64> =
+            (0..=reach).map(|k| 0.5 * (displacement[i + k] + displacement[i - k])).collect();
+        let whole = Line::through(&around, |k| if k == 0 { 1.0 } else { 2.0 });
+        let outside = Line::through(&around[half..], |_| 1.0);
+        // The mean of two samples has half their variance.
+        let most = 0.5 * NOISE * variance + (STRAIGHT * outside.rise).powi(2);
+        if whole.left > SHARE * whole.spread || outside.left > most {
+            continue;
+        }
+        let window = i - half..i + half + 1;
+        match found.last_mut() {
+            Some(last) if last.end >= window.start => last.end = window.end,
+            _ => found.push(window),
+        }
+    }
+    if !found.is_empty() {
+        // A motion that has corners may well start and end with one.
+        found.insert(0, 0..half / 2);
+        found.push(last - half / 2..last);
+    }
+    found
+}
+
+/// Variance of the noise in mm², from the middle of what smoothing takes off.
+fn variance(displacement: &[f64], smooth: &[f64], half: usize) -> f64 {
+    let mut squares: Vec<f64> = displacement.iter().zip(smooth).map(|(x, s)| (x - s).powi(2)).collect();
+    let middle = squares.len() / 2;
+    let median = *squares.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let place: Vec<f64> = (0..=2 * half).map(|k| k as f64).collect();
+    let own = Local::fit(&place, &place, half, half, TERMS).leverage;
+    median / GAUSSIAN / (1.0 - own)
+}
+
+/// A straight line by least squares through values one sample apart.
+struct Line {
+    /// Mean square of the values about their mean.
+    spread: f64,
+    /// Mean square that the line leaves.
+    left: f64,
+    /// How far the line rises.
+    rise: f64,
+}
+
+impl Line {
+    fn through(values: &[f64], weight: impl Fn(usize) -> f64) -> Self {
+        let mean_of = |f: &dyn Fn(usize) -> f64| {
+            let (sum, total) =
+                (0..values.len()).fold((0.0, 0.0), |(s, t), k| (s + weight(k) * f(k), t + weight(k)));
+            sum / total
+        };
+        let (place, mean) = (mean_of(&|k| k as f64), mean_of(&|k| values[k]));
+        let along = mean_of(&|k| (k as f64 - place).powi(2));
+        let spread = mean_of(&|k| (values[k] - mean).powi(2));
+        let slope = mean_of(&|k| (k as f64 - place) * (values[k] - mean)) / along;
+        Self { spread, left: spread - slope * slope * along, rise: slope * (values.len() - 1) as f64 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::velocity::from_displacement;
+
+    const RATE: f64 = 250.0;
+
+    /// Corners of a motion in mm on a time in s, with 2 µm of noise.
+    fn found(motion: impl Fn(f64) -> f64) -> Vec<Range<usize>> {
+        let time: Vec<f64> = (0..1500).map(|i| f64::from(i) / RATE).collect();
+        let noise = |i: usize| 0.002 * (f64::from((i * i * 37 % 1013) as u32) / 506.0 - 1.0);
+        let x: Vec<f64> = time.iter().enumerate().map(|(i, t)| motion(*t) + noise(i)).collect();
+        from_displacement(&time, &x).corners
+    }
+
+    fn triangle(t: f64) -> f64 {
+        4.0 * (std::f64::consts::TAU * t).sin().asin()
+    }
+
+    #[test]
+    fn the_corners_of_a_triangle_are_found_round_or_not() {
+        let round = |t: f64| (0..20).map(|k| triangle(t + 0.001 * f64::from(k) - 0.0095)).sum::<f64>() / 20.0;
+        for corners in [found(triangle), found(round)] {
+            let middles: Vec<f64> =
+                corners.iter().map(|c| 0.5 * (c.start + c.end - 1) as f64 / RATE).collect();
+            assert_eq!(middles.len(), 12, "{middles:?}");
+            for (k, middle) in middles.iter().enumerate() {
+                assert!((middle - 0.25 - 0.5 * k as f64).abs() < 1.5 / RATE, "{middles:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn smooth_motions_have_none() {
+        let turn = std::f64::consts::TAU;
+        let sweep = |t: f64| 5.0 * (turn * 0.2 * ((0.6 * t).exp() - 1.0) / 0.6).sin();
+        let tones = |t: f64| {
+            [1.0, 3.0, 5.0, 7.0, 9.0]
+                .iter()
+                .map(|k| (turn * 0.4 * k * t + k * k).sin() / k.sqrt())
+                .sum::<f64>()
+        };
+        let burst = |t: f64| 5.0 * (turn * 2.0 * t).sin() * (-(t - 3.0).powi(2)).exp();
+        assert_eq!(found(|t| 5.0 * (turn * t).sin()), []);
+        assert_eq!(found(|t| 0.3 * (turn * 0.3 * t).sin()), []);
+        assert_eq!(found(sweep), []);
+        // Several tones may meet like two lines somewhere; hardly anything is lost.
+        assert!(found(tones).iter().map(ExactSizeIterator::len).sum::<usize>() < 1500 / 8);
+        assert_eq!(found(burst), []);
+    }
+}

@@ -1,0 +1,86 @@
+//! The window of local polynomials, by generalised cross-validation.
+
+use rayon::prelude::*;
+
+use super::local::{Local, NARROWEST, TERMS};
+
+/// Samples over which the window is chosen; more add cost, not certainty.
+const TRIAL_SAMPLES: usize = 4_000;
+
+/// More terms have to lower the error of cross-validation to less than this share.
+const BETTER: f64 = 0.8;
+
+/// Samples on either side, and terms of the polynomial.
+#[derive(Clone, Copy)]
+pub(super) struct Window {
+    pub(super) half: usize,
+    pub(super) terms: usize,
+}
+
+impl Window {
+    /// The one with the smallest error of cross-validation; of few samples it is uncertain, and few terms carry less
+    /// noise to the ends.
+    pub(super) fn best(time: &[f64], displacement: &[f64], widest: usize, terms: &[usize]) -> Self {
+        let n = time.len();
+        let stride = n.div_ceil(TRIAL_SAMPLES);
+        let mut best = (f64::INFINITY, Self { half: 0, terms: TERMS });
+        for terms in terms {
+            let mut own = (f64::INFINITY, best.1);
+            for half in candidates(((n - 1) / 2).min(widest)) {
+                let window = Self { half, terms: *terms };
+                let score = window.cross_validation(time, displacement, stride);
+                // A wider window wins ties: it carries less noise into the velocity.
+                if score <= own.0 {
+                    own = (score, window);
+                } else if score > 4.0 * own.0 {
+                    break;
+                }
+            }
+            if own.0 < BETTER * best.0 {
+                best = own;
+            }
+        }
+        best.1
+    }
+
+    /// Samples for each term: the more, the less noise comes into the velocity.
+    pub(super) fn calm(self) -> f64 {
+        self.half as f64 / self.terms as f64
+    }
+
+    /// Velocity and displacement at every sample.
+    pub(super) fn over(self, time: &[f64], displacement: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let local = |i: usize| {
+            let local = Local::fit(time, displacement, i, self.half, self.terms);
+            (local.slope, local.value)
+        };
+        (0..time.len()).into_par_iter().map(local).unzip()
+    }
+
+    fn cross_validation(self, time: &[f64], displacement: &[f64], stride: usize) -> f64 {
+        let picked: Vec<usize> = (0..time.len()).step_by(stride).collect();
+        let errors: Vec<(f64, f64)> = picked
+            .par_iter()
+            .map(|&i| {
+                let local = Local::fit(time, displacement, i, self.half, self.terms);
+                ((displacement[i] - local.value).powi(2), local.leverage)
+            })
+            .collect();
+        let count = errors.len() as f64;
+        let (squares, leverage) = errors.iter().fold((0.0, 0.0), |sum, e| (sum.0 + e.0, sum.1 + e.1));
+        (squares / count) / (1.0 - leverage / count).powi(2)
+    }
+}
+
+/// Half widths in samples, about a quarter apart.
+fn candidates(largest: usize) -> Vec<usize> {
+    let mut widths = vec![NARROWEST.min(largest)];
+    while let Some(&last) = widths.last() {
+        let next = last + 1 + last / 4;
+        if next > largest {
+            break;
+        }
+        widths.push(next);
+    }
+    widths
+}
