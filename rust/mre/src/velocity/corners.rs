@@ -11,41 +11,52 @@ const SHARE: f64 = 0.011;
 /// far the motion goes there.
 const NOISE: f64 = 2.0;
 const STRAIGHT: f64 = 1e-3;
+/// Half widths of the window over which a corner is looked at: a round one is told from a smooth motion over more,
+/// and a short motion has only less.
+const REACHES: [usize; 2] = [2, 3];
 /// Median of the square of a normal variable of variance one.
 const GAUSSIAN: f64 = 0.455;
 
 /// Samples within `half` samples of a corner, as ranges in rising order that do not touch.
 ///
 /// `displacement` in mm on an even grid, `smooth` what polynomials over windows of this half width make of it. At a
-/// corner two straight lines meet, which the window may round: it is looked at over twice the window, and only the
+/// corner two straight lines meet, which the window may round: it is looked at over more than the window, and only the
 /// even part around it tells it from a smooth motion.
 pub(super) fn corners(displacement: &[f64], smooth: &[f64], half: usize) -> Vec<Range<usize>> {
-    let reach = 2 * half;
     let variance = variance(displacement, smooth, half);
     let last = displacement.len();
+    let broken = |i: usize| REACHES.iter().any(|reach| broken(displacement, i, half, reach * half, variance));
+    let middles: Vec<usize> = (half..last.saturating_sub(half)).filter(|i| broken(*i)).collect();
+    if middles.is_empty() {
+        return Vec::new();
+    }
+    // A motion that has corners may well start and end with one.
+    let (start, end) = (0..half / 2, last - half / 2..last);
+    let windows = middles.into_iter().map(|i| i - half..i + half + 1);
+    let windows = std::iter::once(start).chain(windows).chain(std::iter::once(end));
     let mut found: Vec<Range<usize>> = Vec::new();
-    for i in reach..last.saturating_sub(reach) {
-        let around: Vec<f64> =
-            (0..=reach).map(|k| 0.5 * (displacement[i + k] + displacement[i - k])).collect();
-        let whole = Line::through(&around, |k| if k == 0 { 1.0 } else { 2.0 });
-        let outside = Line::through(&around[half..], |_| 1.0);
-        // The mean of two samples has half their variance.
-        let most = 0.5 * NOISE * variance + (STRAIGHT * outside.rise).powi(2);
-        if whole.left > SHARE * whole.spread || outside.left > most {
-            continue;
-        }
-        let window = i - half..i + half + 1;
+    for window in windows {
         match found.last_mut() {
-            Some(last) if last.end >= window.start => last.end = window.end,
+            Some(known) if known.end >= window.start => known.end = window.end,
             _ => found.push(window),
         }
     }
-    if !found.is_empty() {
-        // A motion that has corners may well start and end with one.
-        found.insert(0, 0..half / 2);
-        found.push(last - half / 2..last);
-    }
     found
+}
+
+/// True where two straight lines meet around a sample, as far as `reach` samples on either side of it.
+fn broken(displacement: &[f64], i: usize, half: usize, reach: usize, variance: f64) -> bool {
+    if i < reach || i + reach >= displacement.len() {
+        return false;
+    }
+    let even: Vec<f64> = (0..=reach).map(|k| 0.5 * (displacement[i + k] + displacement[i - k])).collect();
+    let whole = Line::through(&even, |k| if k == 0 { 1.0 } else { 2.0 });
+    if whole.left > SHARE * whole.spread {
+        return false;
+    }
+    let outside = Line::through(&even[half..], |_| 1.0);
+    // The mean of two samples has half their variance.
+    outside.left <= 0.5 * NOISE * variance + (STRAIGHT * outside.rise).powi(2)
 }
 
 /// Variance of the noise in mm², from the middle of what smoothing takes off.

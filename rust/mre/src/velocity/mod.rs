@@ -129,14 +129,10 @@ fn between_corners(derived: &mut Derived, time: &[f64], displacement: &[f64], wh
             (part, Window::best(time, x, usize::MAX, &PART_TERMS))
         })
         .collect();
-    let (mut calm, mut all) = (0, 0);
-    for (part, own) in &parts {
-        all += part.len();
-        if own.calm() > CALMER * whole.calm() {
-            calm += part.len();
-        }
-    }
-    if 2 * calm < all {
+    let samples = |of: &dyn Fn(&Window) -> bool| -> usize {
+        parts.iter().filter(|(_, own)| of(own)).map(|(part, _)| part.len()).sum()
+    };
+    if 2 * samples(&|own| own.calm() > CALMER * whole.calm()) < samples(&|_| true) {
         return;
     }
     for (part, own) in parts {
