@@ -13,7 +13,9 @@ from mre_core import StopReason
 from rig import SINH, Cli, everything_in, made_of, motion, record, write_csv
 
 STAGES = ("exact", "uncertainty", "certificate")
-TWO = [record(made_of("sinh", SINH), motion(current=i), noise=0.1, name=f"{i}A") for i in (0.0, 1.0)]
+TWO = [
+    record(made_of("sinh", SINH), motion(current=i), noise=0.1, seed=int(i), name=f"{i}A") for i in (0.0, 1.0)
+]
 module = importlib.import_module("mre_core.identify")
 
 

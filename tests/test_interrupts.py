@@ -67,7 +67,10 @@ print(result.reason)
 def test_interrupt_of_the_command(tmp_path: Path) -> None:
     moved = motion(cycles=200, rate=512)
     for current in (0, 1):
-        write_csv(tmp_path / f"{current}A.csv", record(made_of("bouc_wen", BOUC_WEN), moved, noise=0.1))
+        write_csv(
+            tmp_path / f"{current}A.csv",
+            record(made_of("bouc_wen", BOUC_WEN), moved, noise=0.1, seed=current),
+        )
     out = tmp_path / "result"
     files = [tmp_path / "0A.csv", tmp_path / "1A.csv"]
     options = ["--model", "bouc_wen", "--seed", "1", "--name-pattern", "{current}A", "--out", str(out)]

@@ -66,7 +66,7 @@ def test_quiet_and_without_figures(cli: Cli, tmp_path: Path, file: Path) -> None
 @pytest.mark.parametrize(
     ("arguments", "pieces"),
     [
-        (["--convention", "mean"], ["'mean'", "displacement_extremes or peak_force"]),
+        (["--convention", "mean"], ["'mean'", "displacement_extremes, peak_force"]),
         (["--cut", "0:0.4"], ["no closed cycle"]),
         (["--model", "none.json"], ["none.json: cannot be read"]),
         (["--exclude", "all"], ["all"]),

@@ -226,7 +226,8 @@ def test_text_from_files_is_text() -> None:
 
 def test_an_identification_is_shown() -> None:
     recordings = [
-        rig_record(made_of("sinh", SINH), motion(current=a), noise=0.5, name=f"at {a}") for a in (0.0, 1.0)
+        rig_record(made_of("sinh", SINH), motion(current=a), noise=0.5, seed=int(a), name=f"at {a}")
+        for a in (0.0, 1.0)
     ]
     found = mre_core.identify(
         recordings, "sinh", optimizer="mafsa", seed=1, max_iterations=5, bounds={"c0": (0, 0.5)}

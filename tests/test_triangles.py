@@ -50,5 +50,17 @@ def test_a_blurred_corner_is_no_missing_physics(seed: int) -> None:
     recordings, base = campaign(seed)
     found = diagnose(recordings, base=base, seed=1)
     assert found.verdict == "adequate", found
-    # What the velocity misses at the corners is in no figure of the fit.
+    # What the velocity misses at the corners is in no figure of the fit, and that is said.
     assert found.fit.train_rms_after < 1.2 * found.fit.noise_rms
+    assert set(found.left_out) == {r.name for r in recordings}
+    assert all(0 < found.left_out[r.name] < r.time.size / 2 for r in recordings)
+    assert found.to_dict()["left_out"] == found.left_out
+
+
+def test_of_a_smooth_motion_nothing_is_left_out() -> None:
+    t = np.arange(2000) / 200
+    rng = np.random.default_rng(4)
+    x = 5 * np.sin(2 * np.pi * t)
+    force = 3 * x + 0.2 * np.gradient(x, t) + 0.1 * rng.normal(size=t.size)
+    found = diagnose(Recording(t, x + 0.005 * rng.normal(size=t.size), force), base="kelvin_voigt", seed=1)
+    assert found.left_out == {}

@@ -177,6 +177,7 @@ def diagnose(
             for label, r, first, second in zip(names, everything, before, last, strict=True)
         ),
         blank=blank_of(raw, float(false_alarm)),
+        left_out={n: count for n, count in zip(names, raw["left_out"], strict=True) if count},
         interrupted=raw["interrupted"],
     )
 

@@ -117,6 +117,9 @@ class Diagnosis:
     was `named`, the `rate` with its 95 % interval from `low` to `high` beside the `stated` one, in how many
     a mismatch was found and nothing named (`unexplained`), and how often each effect was named
     (`by_effect`)."""
+    left_out: Mapping[str, int] = field(default_factory=dict)
+    """Samples by recording that no fit, test or rms counts: near corners of a motion without a recorded
+    velocity, where none can be derived."""
     interrupted: bool = False
     """True where Ctrl-C ended it early: what was not reached is empty, or nan."""
 
@@ -152,6 +155,7 @@ class Diagnosis:
             "next_test": None if self.next_test is None else dict(self.next_test),
             "p_values": dict(self.p_values),
             "blank": None if self.blank is None else dict(self.blank),
+            "left_out": dict(self.left_out),
             "recordings": list(self.recordings),
             "false_alarm": self.false_alarm,
             "seed": self.seed,

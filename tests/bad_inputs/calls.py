@@ -10,7 +10,7 @@ import numpy as np
 from mre_core import InputError
 from rig import SINH, made_of
 
-from .arrays import recording
+from .arrays import FORCE, recording
 from .made import Call
 
 mre_core: Any = package
@@ -188,7 +188,9 @@ CALLED = {
         lambda: mre_core.inertia_weight(0, 0, 1), ["iterations is 0", "from 1"]
     ),
     "fit_laws: a bound without the other": Call(
-        lambda: mre_core.fit_laws([recording(current=1.0), recording(current=2.0)], bounds={"c0": (1,)}),
+        lambda: mre_core.fit_laws(
+            [recording(current=1.0), recording(current=2.0, force=FORCE[::-1])], bounds={"c0": (1,)}
+        ),
         ["bounds of c0 are (1,)", "(lower, upper)"],
     ),
     "fit_laws: laws that are a text": typed(

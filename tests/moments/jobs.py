@@ -18,7 +18,10 @@ class Job(NamedTuple):
 def one(folder: Path) -> None:
     moved = motion(cycles=60, rate=512)
     for current in (0, 1):
-        write_csv(folder / f"{current}A.csv", record(made_of("bouc_wen", BOUC_WEN), moved, noise=0.1))
+        write_csv(
+            folder / f"{current}A.csv",
+            record(made_of("bouc_wen", BOUC_WEN), moved, noise=0.1, seed=int(current)),
+        )
 
 
 def campaign(folder: Path) -> None:

@@ -58,6 +58,11 @@ def print_diagnosis(found: "Diagnosis") -> None:
         out.print(f"where: {escape(place['what'])}")
     if found.absorbed:
         out.print(f"these recordings would hide: {', '.join(found.absorbed)}")
+    if found.left_out:
+        count = sum(found.left_out.values())
+        out.print(
+            f"{count} samples near corners of the motion are left out: no velocity can be derived there"
+        )
     _print_comparison(found, out)
     if found.blank is not None:
         out.print(words.blank(found.blank))

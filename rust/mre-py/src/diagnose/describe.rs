@@ -44,10 +44,17 @@ pub(super) fn describe(
         "unknown": found.unknown.as_ref().map(unknown),
         "nearest": found.nearest,
         "next_test": found.next_test.as_ref().map(next_test),
+        "left_out": left_out(begun),
         "sizes": sizes(found),
         "blank": blanks.filter(|b| b.count > 0).map(blank),
         "interrupted": found.broken_off || blanks.is_some_and(|b| b.count < wanted),
     })
+}
+
+/// Samples that told nothing, by recording.
+fn left_out(assembly: &Assembly) -> Vec<usize> {
+    let ranges = assembly.campaign().corners().iter();
+    ranges.map(|of_one| of_one.iter().map(ExactSizeIterator::len).sum()).collect()
 }
 
 fn blank(b: &Blank) -> Value {

@@ -70,7 +70,7 @@ impl Campaign {
     }
 
     /// Samples near a corner of a motion whose velocity is derived: it is wrong there, and no fit counts them.
-    pub(crate) fn corners(&self) -> &[Vec<Range<usize>>] {
+    pub fn corners(&self) -> &[Vec<Range<usize>>] {
         &self.corners
     }
 
