@@ -84,7 +84,8 @@ def everything(recording: Recording) -> dict[str, Any]:
         ("displacement", "velocity", "force", "step", "duration", "total", "path", "energy"), 1.0
     )
     recordings = [
-        record(made_of("sinh", SINH), motion(rate=64.0, current=i), noise=0.3) for i in (0.0, 1.0, 2.0)
+        record(made_of("sinh", SINH), motion(rate=64.0, current=i), noise=0.3, seed=int(i))
+        for i in (0.0, 1.0, 2.0)
     ]
     laws = mre_core.fit_laws(recordings, "kelvin_voigt")
     x = found.result.x

@@ -2,8 +2,7 @@
 
 import os
 from collections.abc import Collection, Iterable
-
-import numpy as np
+from numbers import Integral
 
 from .errors import InputError, listed, shown
 
@@ -19,7 +18,7 @@ def whole(value: object, name: str, least: int, most: int) -> int:
     InputError
         It is something else, a truth value, or outside the range.
     """
-    if isinstance(value, int | np.integer) and not isinstance(value, bool) and least <= value <= most:
+    if isinstance(value, Integral) and not isinstance(value, bool) and least <= value <= most:
         return int(value)
     raise InputError(f"{name} is {shown(value)}", wanted=f"a whole number from {least} to {most}")
 
@@ -73,6 +72,8 @@ def flag(value: object, name: str) -> bool:
     InputError
         It is something else.
     """
+    import numpy as np  # which the help of a command does not wait for
+
     if isinstance(value, bool | np.bool_):
         return bool(value)
     raise InputError(f"{name} is {shown(value)}", wanted="True or False")

@@ -46,9 +46,6 @@ mod _core {
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
-        // NumPy's interface is looked up once, and what interrupts that later would be a panic.
-        module.py().import("numpy")?;
-        drop(numpy::PyArray1::<f64>::zeros(module.py(), 0, false));
         module.add("__version__", env!("CARGO_PKG_VERSION"))
     }
 }
