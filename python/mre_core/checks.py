@@ -18,7 +18,7 @@ def whole(value: object, name: str, least: int, most: int) -> int:
     InputError
         It is something else, a truth value, or outside the range.
     """
-    if isinstance(value, Integral) and not isinstance(value, bool) and least <= value <= most:
+    if isinstance(value, Integral) and not isinstance(value, bool) and least <= int(value) <= most:
         return int(value)
     raise InputError(f"{name} is {shown(value)}", wanted=f"a whole number from {least} to {most}")
 
