@@ -156,3 +156,21 @@ def test_interrupt_of_a_command_that_an_import_runs(tmp_path: Path) -> None:
     )
     run = run_script(f"import sys; sys.path.insert(0, {str(tmp_path)!r}); import runs; sys.exit(runs.status)")
     assert (run.returncode, run.stderr) == (130, "mre-core: interrupted\n")
+
+
+def test_an_interruption_of_the_first_look_at_numpy_is_no_panic() -> None:
+    code = """
+import numpy.lib, mre_core
+before = numpy.lib.NumpyVersion
+def interrupted(version):
+    numpy.lib.NumpyVersion = before
+    raise KeyboardInterrupt
+numpy.lib.NumpyVersion = interrupted
+t = numpy.arange(100.0)
+try:
+    mre_core.Recording(t, numpy.sin(t), numpy.cos(t))
+except KeyboardInterrupt:
+    print("KeyboardInterrupt", len(mre_core.Recording(t, numpy.sin(t), numpy.cos(t))))
+"""
+    run = run_script(code)
+    assert (run.returncode, run.stdout, run.stderr) == (0, "KeyboardInterrupt 100\n", "")

@@ -2,11 +2,20 @@
 
 use numpy::{AllowTypeChange, PyArray1, PyArrayLike1, PyArrayLike2, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::prelude::*;
+use pyo3::sync::PyOnceLock;
 
 use crate::error::MreError;
 
+/// Look up which NumPy this is before its interface is used for the first time, where an error of the look-up,
+/// such as an interruption, would be a panic.
+pub(crate) fn numpy_is_there(py: Python<'_>) -> PyResult<()> {
+    static THERE: PyOnceLock<()> = PyOnceLock::new();
+    THERE.get_or_try_init(py, || numpy::get_array_module(py).map(drop)).copied()
+}
+
 /// A one-dimensional array of numbers, copied: the caller may go on writing to its own.
 pub(crate) fn vector(what: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
+    numpy_is_there(value.py())?;
     let wanted = "a one-dimensional array of numbers";
     let array = plain(value).ok_or_else(|| unreadable(what, value, wanted))?;
     match array.extract::<PyArrayLike1<'_, f64, AllowTypeChange>>() {
@@ -37,6 +46,7 @@ fn plain<'py>(value: &Bound<'py, PyAny>) -> Option<Bound<'py, PyAny>> {
 
 /// Rows of `columns` numbers; a single row may come one-dimensional. The flag says whether it did.
 pub(crate) fn rows(what: &str, value: &Bound<'_, PyAny>, columns: usize) -> PyResult<(Vec<f64>, bool)> {
+    numpy_is_there(value.py())?;
     let wanted = format!("an array of shape (n, {columns}) or ({columns},)");
     let array = plain(value).ok_or_else(|| unreadable(what, value, &wanted))?;
     if let Ok(array) = array.extract::<PyArrayLike2<'_, f64, AllowTypeChange>>() {

@@ -10,6 +10,7 @@ use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use pyo3::types::PyMapping;
 
+use crate::array::numpy_is_there;
 use crate::device::{self, Levels};
 use crate::effects::{self, Given, law_of};
 use crate::error::to_python;
@@ -112,6 +113,7 @@ pub(crate) fn excitation<'py>(
     rate: f64,
     current: Option<(f64, f64)>,
 ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, Option<Bound<'py, PyArray1<f64>>>)> {
+    numpy_is_there(py)?;
     let known = KINDS.iter().find(|k| k.id() == kind);
     let limits = Limits { stroke, speed, highest, duration, rate, current };
     let signal = known.and_then(|k| k.signal(&limits)).ok_or_else(|| {

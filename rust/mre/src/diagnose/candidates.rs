@@ -18,7 +18,6 @@ use super::settings::Settings;
 use super::starts::without_initial_state;
 use crate::assembly::{Assembly, Campaign};
 use crate::effect::{CATALOGUE, Effect};
-use crate::recording::Recording;
 
 /// The best of them are also fitted from other shapes of the base.
 const UNBENT: usize = 2;
@@ -84,15 +83,11 @@ pub(super) fn residuals(assembly: &Assembly, data: Data, fitted: &Fitted) -> Vec
 /// Measured less modelled force in N, of the samples of a recording that are scored; where these tell nothing, as
 /// around there.
 pub(super) fn residual(campaign: &Campaign, r: usize, force: &[f64]) -> Vec<f64> {
-    let mut left = of_the_scored(&campaign.recordings()[r], force);
+    let recording = &campaign.recordings()[r];
+    let all = recording.force().unwrap_or_default().iter().zip(force).map(|(f, model)| f - model);
+    let mut left: Vec<f64> = all.skip(recording.scored().start).take(recording.scored().len()).collect();
     LeftOut::of(campaign, r).bridge(&mut left);
     left
-}
-
-/// Measured less modelled force in N, of the samples that are scored.
-pub(super) fn of_the_scored(recording: &Recording, force: &[f64]) -> Vec<f64> {
-    let measured = recording.force().unwrap_or_default().iter();
-    measured.zip(force).map(|(f, model)| f - model).collect::<Vec<_>>()[recording.scored()].to_vec()
 }
 
 /// The noise that a fit leaves: all of its residual, unless that is plainly a mismatch.

@@ -62,12 +62,14 @@ impl<'a> LeftOut<'a> {
         self.ranges.iter().map(|r| place(r.start)..place(r.end)).filter(|r| !r.is_empty()).collect()
     }
 
-    /// Gaps in the whole recording, and in its scored samples alone, for an autoregression.
-    pub(super) fn gaps(&self, coefficients: &[f64], scale: f64) -> [Gaps; 2] {
-        [
-            Gaps::new(self.ranges, coefficients, scale, self.length),
-            Gaps::new(&self.of_the_scored(), coefficients, scale, self.scored.len()),
-        ]
+    /// Gaps in the whole recording, for an autoregression.
+    pub(super) fn gaps(&self, coefficients: &[f64], scale: f64) -> Gaps {
+        Gaps::new(self.ranges, coefficients, scale, self.length)
+    }
+
+    /// Gaps in its scored samples alone, for an autoregression.
+    pub(super) fn gaps_of_the_scored(&self, coefficients: &[f64], scale: f64) -> Gaps {
+        Gaps::new(&self.of_the_scored(), coefficients, scale, self.scored.len())
     }
 }
 

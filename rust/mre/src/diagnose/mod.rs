@@ -18,6 +18,7 @@ mod diagnosis;
 mod distribution;
 mod drift;
 mod exchange;
+mod explained;
 mod features;
 mod gaps;
 mod held;

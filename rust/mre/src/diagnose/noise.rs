@@ -122,14 +122,14 @@ impl Filter {
         let coefficients = choice.coefficients.clone();
         let floor = dot(residual, residual) / residual.len() as f64;
         let mut errors = prediction_error(&without_hum(residual, step), &coefficients, 1.0);
-        let [_, gaps] = left_out.gaps(&coefficients, 1.0);
+        let gaps = left_out.gaps_of_the_scored(&coefficients, 1.0);
         gaps.leave_out(&mut errors);
         let left = (errors.len() as f64 - used - gaps.count() as f64).max(0.5 * errors.len() as f64);
         let variance = dot(&errors, &errors) / left;
         // A residual of zeros is no noise: keep the numbers finite.
         let variance = variance.max(1e-24 * floor).max(f64::MIN_POSITIVE);
         let scale = 1.0 / variance.sqrt();
-        let [whole, _] = left_out.gaps(&coefficients, scale);
+        let whole = left_out.gaps(&coefficients, scale);
         (Self { coefficients, scale }, whole)
     }
 }

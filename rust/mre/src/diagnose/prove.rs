@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::explained::unexplained;
 use super::gaps::LeftOut;
 use super::least_squares::{Data, Fitted, refine};
 use super::monitor::Monitor;
@@ -10,7 +11,9 @@ use super::normal::Rows;
 use super::point::Point;
 use super::splits::Split;
 use crate::assembly::Assembly;
-use crate::kernel::filter::dot;
+
+/// Ridge on the square of a column of the measurement.
+const OWN_RIDGE: f64 = 1e-10;
 
 /// Squared errors in N^2 and number of samples, by recording.
 type Sums = Vec<(f64, usize)>;
@@ -96,27 +99,13 @@ fn beside_its_own(assembly: &Assembly, point: &Point, r: usize, measured: &[f64]
     let pairs = point.fitted.coefficients.iter().zip(&device);
     let of_device: Vec<f64> = pairs.map(|(c, own)| if *own { *c } else { 0.0 }).collect();
     let force = columns.measured(&of_device);
-    let mut error: Vec<f64> = measured.iter().zip(force).map(|(f, m)| f - m).collect();
-    let own: Vec<&Vec<f64>> = columns
+    let error = measured.iter().zip(force).map(|(f, m)| f - m).collect();
+    let own: Vec<&[f64]> = columns
         .columns
         .iter()
         .zip(&columns.places)
         .filter(|(_, place)| !device[**place])
-        .map(|(column, _)| column)
+        .map(|(column, _)| &column[..])
         .collect();
-    let size = |i: usize| dot(own[i], own[i]).sqrt().max(f64::MIN_POSITIVE);
-    let gram = nalgebra::DMatrix::from_fn(own.len(), own.len(), |i, j| {
-        let ridge = if i == j { 1e-10 } else { 0.0 };
-        dot(own[i], own[j]) / (size(i) * size(j)) + ridge
-    });
-    let right = nalgebra::DVector::from_fn(own.len(), |i, _| dot(own[i], &error) / size(i));
-    if let Some(factor) = gram.cholesky() {
-        let c = factor.solve(&right);
-        for (i, column) in own.iter().enumerate() {
-            for (e, value) in error.iter_mut().zip(*column) {
-                *e -= c[i] / size(i) * value;
-            }
-        }
-    }
-    error
+    unexplained(error, &own, |square| OWN_RIDGE * square.max(f64::MIN_POSITIVE))
 }

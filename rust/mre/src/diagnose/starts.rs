@@ -1,8 +1,7 @@
 //! Residuals of recordings that start in motion.
 
-use nalgebra::{DMatrix, DVector};
-
-use super::candidates::of_the_scored;
+use super::candidates::residual;
+use super::explained::unexplained;
 use crate::assembly::Assembly;
 use crate::effect::{Effect, InitialState, starts_in_motion};
 use crate::kernel::filter::dot;
@@ -10,10 +9,11 @@ use crate::kernel::filter::dot;
 /// Forces in N of a model, with what an unknown initial state explains of what they leave.
 pub(super) fn with_initial_states(assembly: &Assembly, mut forces: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     for (r, force) in forces.iter_mut().enumerate() {
-        let recording = &assembly.campaign().recordings()[r];
-        let residual = of_the_scored(recording, force);
-        let left = without_initial_state(assembly, r, residual.clone());
-        for ((force, before), after) in force[recording.scored()].iter_mut().zip(residual).zip(left) {
+        let campaign = assembly.campaign();
+        let before = residual(campaign, r, force);
+        let left = without_initial_state(assembly, r, before.clone());
+        let scored = campaign.recordings()[r].scored();
+        for ((force, before), after) in force[scored].iter_mut().zip(before).zip(left) {
             *force += before - after;
         }
     }
@@ -29,18 +29,10 @@ pub(super) fn without_initial_state(assembly: &Assembly, r: usize, residual: Vec
     if !starts_in_motion(recording) {
         return residual;
     }
-    let scored = |column: Vec<f64>| column[recording.scored()].to_vec();
-    let columns: Vec<Vec<f64>> =
-        InitialState.columns(&assembly.scene(r), &[]).into_iter().map(scored).collect();
+    let columns = InitialState.columns(&assembly.scene(r), &[]);
     // No remainder is larger than the force.
     let largest = assembly.campaign().sizes().force;
     let ridge = dot(&residual, &residual) / residual.len() as f64 / largest.powi(2);
-    let gram = DMatrix::from_fn(columns.len(), columns.len(), |i, j| {
-        dot(&columns[i], &columns[j]) + if i == j { ridge } else { 0.0 }
-    });
-    let right = DVector::from_fn(columns.len(), |i, _| dot(&columns[i], &residual));
-    let Some(factor) = gram.cholesky() else { return residual };
-    let found = factor.solve(&right);
-    let explained = |i: usize| columns.iter().zip(found.iter()).map(|(c, a)| a * c[i]).sum::<f64>();
-    residual.iter().enumerate().map(|(i, left)| left - explained(i)).collect()
+    let columns: Vec<&[f64]> = columns.iter().map(|column| &column[recording.scored()]).collect();
+    unexplained(residual, &columns, |_| ridge)
 }
