@@ -22,6 +22,17 @@ _MISSING = re.compile(
 )
 """In an error that a worker could not send as what it was."""
 _LOCAL = re.compile(r"local:(\d{1,3})")
+_SETTINGS = {
+    "distributed.comm.timeouts.connect": _PATIENCE,
+    "distributed.worker.daemon": False,  # workers start processes
+    "distributed.admin.large-graph-warning-threshold": "1GiB",  # files that travel are meant to
+    # A worker only waits for the process that works. Looking after itself, it and the scheduler would take
+    # a fourteenth of a core, which they have to share with the work on a machine of few cores.
+    "distributed.worker.profile.enabled": False,
+    "distributed.worker.memory.monitor-interval": "5s",
+    "distributed.admin.system-monitor.interval": "10s",
+    "distributed.admin.tick.interval": "500ms",
+}
 
 
 @contextmanager
@@ -55,26 +66,29 @@ def cluster_engine(address: str, folder: Path, threads: int) -> Iterator[Engine]
     local = _LOCAL.fullmatch(address)
     if address.startswith("local") and (local is None or int(local[1]) == 0):
         raise InputError(f"cluster is '{address}'", wanted="local:N with N workers, or an address")
-    settings = {
-        "distributed.comm.timeouts.connect": _PATIENCE,
-        "distributed.worker.daemon": False,  # workers start processes
-        "distributed.worker.profile.enabled": False,  # a worker's own thread only waits for its process
-        "distributed.admin.large-graph-warning-threshold": "1GiB",  # files that travel are meant to
-    }
     with ExitStack() as stack:
-        stack.enter_context(dask.config.set(settings))
+        stack.enter_context(dask.config.set(_SETTINGS))
         target: Any = address
         if local is not None:
-            count = int(local[1])
-            target = stack.enter_context(
-                distributed.LocalCluster(n_workers=count, threads_per_worker=1, dashboard_address=None)
-            )
+            target = stack.enter_context(local_cluster(int(local[1])))
         client = stack.enter_context(_connect(distributed.Client, target, address))
         slots = _check_workers(client, address, threads)
         sees = all(client.run(_sees, str(folder.resolve())).values())
         # Same function, same arguments, other time: a task is not what Dask calls pure.
         executor: Executor = client.get_executor(pure=False, retries=_RETRIES)
         yield Engine(executor, slots, sees)
+
+
+@contextmanager
+def local_cluster(workers: int) -> Iterator[Any]:
+    """Start workers of one thread each on this machine, and a scheduler in this process."""
+    dask: Any = import_module("dask")
+    distributed: Any = import_module("distributed")
+    with (
+        dask.config.set(_SETTINGS),
+        distributed.LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None) as cluster,
+    ):
+        yield cluster
 
 
 def _connect(client: Any, target: Any, address: str) -> Any:

@@ -33,7 +33,8 @@ class Entry:
     lasting: bool
     """False where it failed in a way that another attempt may not."""
     row: Mapping[str, Any]
-    model: Mapping[str, Any] | None
+    model: str | None
+    """Content of the model file."""
 
 
 class Journal:
@@ -92,10 +93,7 @@ class Journal:
 
     def write(self, entries: Sequence[Entry]) -> None:
         """Keep finished items."""
-        rows = [
-            (e.item, str(e.seed), e.digest, e.lasting, json.dumps(dict(e.row)), json.dumps(e.model))
-            for e in entries
-        ]
+        rows = [(e.item, str(e.seed), e.digest, e.lasting, json.dumps(dict(e.row)), e.model) for e in entries]
         with self._told(), self._db:
             self._db.executemany("insert or replace into done values (?, ?, ?, ?, ?, ?)", rows)
 
@@ -104,9 +102,7 @@ class Journal:
         with self._told():
             found = self._db.execute("select item, seed, digest, lasting, row, model from done").fetchall()
         return {
-            (item, int(seed)): Entry(
-                item, int(seed), digest, bool(lasting), json.loads(row), json.loads(model)
-            )
+            (item, int(seed)): Entry(item, int(seed), digest, bool(lasting), json.loads(row), model)
             for item, seed, digest, lasting, row, model in found
         }
 

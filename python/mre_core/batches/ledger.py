@@ -111,7 +111,7 @@ class Ledger:
         if models:
             with staged(out / MODELS) as stage:
                 for file, content in models.items():
-                    stage.write_json(file, content)
+                    stage.path(file).write_text(content, encoding="utf-8")
         with staged(out) as stage:
             to_table(rows).to_parquet(stage.path(RESULTS), index=False)
 

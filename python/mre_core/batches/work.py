@@ -12,6 +12,7 @@ from typing import Any
 from .._core import Recording, __version__
 from ..errors import InputError, MreError, one_line
 from ..files.table import NotesError
+from ..output import to_json
 from .items import digest_of, digest_of_all
 from .rows import row_of_diagnosis, row_of_identification
 from .settings import Settings
@@ -39,8 +40,8 @@ class Outcome:
     item: str
     seed: int
     row: dict[str, Any] = field(default_factory=dict)
-    model: dict[str, Any] | None = None
-    """Content of a model file."""
+    model: str | None = None
+    """Content of a model file: made by the workers, who are many."""
     error: str = ""
     """Why it failed; empty where it did not."""
     notes: bool = False
@@ -120,7 +121,7 @@ def _loaded(files: list[Path], task: Task) -> list[Recording]:
     return recordings
 
 
-def _result(recordings: list[Recording], task: Task) -> tuple[dict[str, Any], dict[str, Any]]:
+def _result(recordings: list[Recording], task: Task) -> tuple[dict[str, Any], str]:
     from ..diagnose import diagnose
     from ..identify import identify
 
@@ -128,7 +129,7 @@ def _result(recordings: list[Recording], task: Task) -> tuple[dict[str, Any], di
     common: dict[str, Any] = {**settings.options, "seed": task.seed, "threads": task.threads}
     if settings.job == "diagnose":
         diagnosis = diagnose(recordings, settings.given_model(), **common)
-        return row_of_diagnosis(diagnosis, recordings), diagnosis.model.to_dict()
+        return row_of_diagnosis(diagnosis, recordings), to_json(diagnosis.model.to_dict())
     found = identify(recordings, settings.given_model(), **common)
     boot = [] if settings.bootstrap is None else found.bootstrap(settings.bootstrap, threads=task.threads)
-    return row_of_identification(found, boot, recordings), found.model.to_dict()
+    return row_of_identification(found, boot, recordings), to_json(found.model.to_dict())
