@@ -24,7 +24,7 @@ test-rust:
 	cargo test --locked -p mre
 
 test-python: install
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest --numprocesses logical --maxprocesses 4 --dist loadfile --no-loadscope-reorder
 
 lint: install
 	cargo fmt --all --check
