@@ -1,20 +1,20 @@
 //! The recordings of a diagnosis, with what effects need of them.
 
 use std::ops::Range;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use rayon::prelude::*;
 
-use crate::effect::{Scene, Sizes};
+use crate::effect::{Acceleration, Scene, Sizes};
 use crate::error::{Error, Result};
 use crate::recording::{Condition, Recording};
 use crate::velocity;
 
-/// Recordings with derived accelerations and sizes.
+/// Recordings with sizes, and what is derived of them.
 #[derive(Debug, Clone)]
 pub struct Campaign {
     recordings: Vec<Arc<Recording>>,
-    accelerations: Vec<Vec<f64>>,
+    accelerations: Vec<OnceLock<Vec<f64>>>,
     currents: Vec<Option<Vec<f64>>>,
     corners: Vec<Vec<Range<usize>>>,
     before: Vec<f64>,
@@ -45,10 +45,7 @@ impl Campaign {
 
     /// The same for a simulation, with the sizes of the recordings that the effects were fitted to.
     pub(crate) fn with_sizes(recordings: Vec<Arc<Recording>>, sizes: Sizes) -> Self {
-        let accelerations = recordings
-            .par_iter()
-            .map(|r| velocity::from_displacement(r.time(), r.velocity()).velocity)
-            .collect();
+        let accelerations = vec![OnceLock::new(); recordings.len()];
         let currents = recordings.iter().map(|r| current(r)).collect();
         let mut total = 0.0;
         let before = recordings
@@ -97,7 +94,7 @@ impl Campaign {
             time: recording.time(),
             displacement: recording.displacement(),
             velocity: recording.velocity(),
-            acceleration: &self.accelerations[r],
+            acceleration: Acceleration { recording, known: &self.accelerations[r] },
             current: self.currents[r].as_deref(),
             force,
             whole,

@@ -74,7 +74,8 @@ pub(super) fn features(scene: &Scene) -> Vec<Feature> {
     add(On::State, &|i| v[i] * near(i));
     add(On::Force, &|i| f[i] * f[i]);
     add(On::Force, &|i| f[i].powi(3));
-    add(On::Acceleration, &|i| scene.acceleration[i]);
+    let a = scene.acceleration.get();
+    add(On::Acceleration, &|i| a[i]);
     for memory in MEMORIES {
         found.push(Feature { on: On::Memory(memory), column: low_passed(scene, &v, memory) });
     }

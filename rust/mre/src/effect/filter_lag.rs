@@ -109,7 +109,7 @@ impl Effect for FilterLag {
             |series: &[f64], rate: &[f64]| series.iter().zip(rate).map(|(x, v)| x + shape[0] * v).collect();
         (*self == Self::Displacement).then(|| Motion {
             displacement: ahead(scene.displacement, scene.velocity),
-            velocity: ahead(scene.velocity, scene.acceleration),
+            velocity: ahead(scene.velocity, scene.acceleration.get()),
         })
     }
 

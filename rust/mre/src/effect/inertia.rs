@@ -40,6 +40,6 @@ impl Effect for Inertia {
     }
 
     fn columns(&self, scene: &Scene, _: &[f64]) -> Vec<Vec<f64>> {
-        vec![each(scene.acceleration, |a| 1e-3 * a)]
+        vec![each(scene.acceleration.get(), |a| 1e-3 * a)]
     }
 }

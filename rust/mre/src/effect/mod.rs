@@ -49,7 +49,7 @@ pub use catalogue::{CATALOGUE, named};
 pub use initial_state::{InitialState, starts_in_motion};
 pub(crate) use operators::slope;
 pub use quantisation::Quantisation;
-pub use scene::{Scene, Sizes};
+pub use scene::{Acceleration, Scene, Sizes};
 
 use crate::parameter::{Parameter, Scale};
 

@@ -1,6 +1,9 @@
 //! What an effect sees of a recording, and the sizes from which its default boxes are made.
 
+use std::sync::OnceLock;
+
 use crate::recording::{Condition, Recording};
+use crate::velocity;
 
 /// One recording as effects see it. All series have one value a sample.
 #[derive(Debug, Clone, Copy)]
@@ -11,8 +14,8 @@ pub struct Scene<'a> {
     pub displacement: &'a [f64],
     /// Velocity, mm/s.
     pub velocity: &'a [f64],
-    /// Acceleration, mm/s^2.
-    pub acceleration: &'a [f64],
+    /// Acceleration, which few effects ask for.
+    pub acceleration: Acceleration<'a>,
     /// Coil current, A; `None` where it is not known.
     pub current: Option<&'a [f64]>,
     /// Force of the base model as fitted without effects, N.
@@ -23,6 +26,27 @@ pub struct Scene<'a> {
     pub before: f64,
     /// Sizes over the campaign.
     pub sizes: &'a Sizes,
+}
+
+/// Acceleration of a recording, derived when it is asked for.
+#[derive(Debug, Clone, Copy)]
+pub struct Acceleration<'a> {
+    pub(crate) recording: &'a Recording,
+    /// Kept for the next that asks.
+    pub(crate) known: &'a OnceLock<Vec<f64>>,
+}
+
+impl<'a> Acceleration<'a> {
+    /// At every sample, mm/s^2.
+    pub fn get(self) -> &'a [f64] {
+        if let Some(known) = self.known.get() {
+            return known;
+        }
+        // Not while the place is locked: the work is shared with threads that may ask for it as well.
+        let (time, velocity) = (self.recording.time(), self.recording.velocity());
+        let found = velocity::from_displacement(time, velocity).velocity;
+        self.known.get_or_init(|| found)
+    }
 }
 
 impl Scene<'_> {

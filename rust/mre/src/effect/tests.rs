@@ -6,15 +6,15 @@ mod every_law;
 mod softening;
 
 use std::f64::consts::TAU;
+use std::sync::OnceLock;
 
-use super::{Effect, Scene, Sizes, named};
+use super::{Acceleration, Effect, Scene, Sizes, named};
 use crate::recording::{Condition, Recording, Series};
-use crate::velocity;
 
 /// A recording with everything that a scene needs.
 struct Stage {
     recording: Recording,
-    acceleration: Vec<f64>,
+    acceleration: OnceLock<Vec<f64>>,
     current: Option<Vec<f64>>,
     force: Vec<f64>,
     sizes: Sizes,
@@ -25,7 +25,6 @@ impl Stage {
         let displacement: Vec<f64> = time.iter().map(|t| motion(*t).0).collect();
         let velocity: Vec<f64> = time.iter().map(|t| motion(*t).1).collect();
         let force: Vec<f64> = displacement.iter().zip(&velocity).map(|(x, v)| 5.0 * x + 0.3 * v).collect();
-        let acceleration = velocity::from_displacement(&time, &velocity).velocity;
         let recording = Recording::new(Series {
             time,
             displacement,
@@ -38,7 +37,7 @@ impl Stage {
         })
         .expect("valid series");
         let sizes = Sizes::of(std::iter::once(&recording));
-        Self { recording, acceleration, current, force, sizes }
+        Self { recording, acceleration: OnceLock::new(), current, force, sizes }
     }
 
     /// `amplitude * sin(2 pi f t)` at 1000 Hz.
@@ -52,7 +51,7 @@ impl Stage {
             time: self.recording.time(),
             displacement: self.recording.displacement(),
             velocity: self.recording.velocity(),
-            acceleration: &self.acceleration,
+            acceleration: Acceleration { recording: &self.recording, known: &self.acceleration },
             current: self.current.as_deref(),
             force: &self.force,
             whole: &self.force,
