@@ -5,6 +5,8 @@ import re
 import shutil
 import signal
 import sqlite3
+import sys
+import time
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from dataclasses import replace
 from multiprocessing import get_context
@@ -303,6 +305,24 @@ def test_a_process_that_is_killed_is_started_again(five: Path) -> None:
             timer.cancel()
     assert outcome.error == "its process died 3 times (status -9): out of memory?"
     assert not outcome.lasting
+
+
+@pytest.mark.skipif(os.name != "posix", reason="needs a shell")
+def test_a_process_that_is_only_starting_holds_nobody_up(
+    five: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    begun, never = tmp_path / "begun", tmp_path / "never-ready"
+    never.write_text(f"#!/bin/sh\necho $$ > {begun}\nexec sleep 1000\n")
+    never.chmod(0o755)
+    monkeypatch.setattr(sys, "executable", str(never))
+    child = Child()
+    with ThreadPoolExecutor(1) as pool:
+        item = pool.submit(child.run, task_of(five), None)
+        while not begun.exists() or not begun.read_text().strip():
+            time.sleep(0.01)
+        child.close()
+        with pytest.raises(RuntimeError, match="the batch has ended"):
+            item.result(timeout=60)
 
 
 def test_a_file_that_changes_while_it_is_read(tmp_path: Path) -> None:

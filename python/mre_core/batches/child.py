@@ -89,20 +89,22 @@ class Child:
         with self._lock:
             if self._closed:
                 raise RuntimeError("the batch has ended")
-            if self._process is None:
-                root = str(Path(__file__).parents[2])
-                code = f"import sys; sys.path.insert(0, {root!r})\n"
-                code += "from mre_core.batches.serve import serve; serve()"
-                self._process = subprocess.Popen(
-                    [sys.executable, "-P", "-c", code],
-                    stdin=subprocess.PIPE,
-                    stdout=subprocess.PIPE,
-                    env=os.environ | ENVIRONMENT,
-                    start_new_session=True,  # Ctrl-C is for the process that started it
-                )
-                assert self._process.stdout is not None
-                self._process.stdout.read(1)  # ready: importing is not on the account of the item
-            return self._process
+            if self._process is not None:
+                return self._process
+            root = str(Path(__file__).parents[2])
+            code = f"import sys; sys.path.insert(0, {root!r})\n"
+            code += "from mre_core.batches.serve import serve; serve()"
+            self._process = process = subprocess.Popen(
+                [sys.executable, "-P", "-c", code],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                env=os.environ | ENVIRONMENT,
+                start_new_session=True,  # Ctrl-C is for the process that started it
+            )
+        assert process.stdout is not None
+        # Importing is not on the account of the item; and who closes does not wait for it.
+        process.stdout.read(1)
+        return process
 
     @staticmethod
     def _kill(process: "subprocess.Popen[bytes]", late: threading.Event) -> None:
