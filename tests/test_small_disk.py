@@ -1,5 +1,6 @@
 """A disk on which no room is left, at any point of a command: one line, and what stood there stays."""
 
+import os
 import subprocess
 from collections.abc import Iterator
 from pathlib import Path
@@ -132,11 +133,15 @@ def test_a_batch_keeps_the_results_it_had(disk: Disk, tmp_path: Path) -> None:
     assert models.items() <= disk.content().items()
 
 
+@pytest.mark.parametrize("unbuffered", ["", "1"])
 @pytest.mark.parametrize("arguments", [[], ["--version"], ["schema"], ["identify"]])
-def test_no_room_for_the_output(tmp_path: Path, arguments: list[str]) -> None:
+def test_no_room_for_the_output(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, arguments: list[str], unbuffered: str
+) -> None:
     full = Path("/dev/full")
     if not full.exists():
         pytest.skip("this system has no /dev/full")
+    monkeypatch.setenv("PYTHONUNBUFFERED", unbuffered)
     given = arguments_of("identify", tmp_path) if arguments == ["identify"] else arguments
     with full.open("w") as nowhere:
         run = subprocess.run(command(*given), stdout=nowhere, stderr=subprocess.PIPE, text=True, check=False)
@@ -144,3 +149,14 @@ def test_no_room_for_the_output(tmp_path: Path, arguments: list[str]) -> None:
         assert (run.returncode, run.stderr) == (1, wanted)
         missing = command("identify", tmp_path / "missing.csv", "--model", "sinh")
         assert subprocess.run(missing, stderr=nowhere, check=False).returncode == 2
+        assert subprocess.run(command(*given), stdout=nowhere, stderr=nowhere, check=False).returncode == 1
+
+
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+def test_nobody_reads_the_output(monkeypatch: pytest.MonkeyPatch, unbuffered: str) -> None:
+    monkeypatch.setenv("PYTHONUNBUFFERED", unbuffered)
+    reader, writer = os.pipe()
+    os.close(reader)
+    run = subprocess.run(command("schema"), stdout=writer, stderr=subprocess.PIPE, text=True, check=False)
+    os.close(writer)
+    assert (run.returncode, run.stderr) == (1, "")

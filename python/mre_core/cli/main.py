@@ -69,11 +69,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(end="", flush=True)
         return status
     except BrokenPipeError:  # whoever read the output has seen enough
-        sys.stderr.close()
+        _give_up(sys.stdout)
         return 1
     except OSError as error:
         if error.errno not in _FULL:
             return _unforeseen(error)
+        _give_up(sys.stdout)
         return _fail(f"the output cannot be written: {error.strerror}, wanted room for it", 1)
 
 
@@ -155,8 +156,16 @@ def _fail(message: str, status: int) -> int:
 
 
 def _say(text: str) -> None:
-    with suppress(OSError):  # the disk that holds the errors may be the one that is full
+    try:
         print(f"mre-core: {text}", file=sys.stderr)
+    except OSError:  # the disk that holds the errors may be the one that is full
+        _give_up(sys.stderr)
+
+
+def _give_up(stream: TextIO) -> None:
+    """Send to nowhere what cannot be written: the interpreter tries it again as it ends, and fails for it."""
+    with suppress(OSError), open(os.devnull, "w") as nowhere:
+        os.dup2(nowhere.fileno(), stream.fileno())
 
 
 def _show_warning(
