@@ -26,8 +26,8 @@ _SETTINGS = {
     "distributed.comm.timeouts.connect": _PATIENCE,
     "distributed.worker.daemon": False,  # workers start processes
     "distributed.admin.large-graph-warning-threshold": "1GiB",  # files that travel are meant to
-    # A worker only waits for the process that works. Looking after itself, it and the scheduler would take
-    # a fourteenth of a core, which they have to share with the work on a machine of few cores.
+    # A worker only waits for the process that works. What it and the scheduler do to look after themselves is
+    # taken from that on a machine of few cores.
     "distributed.worker.profile.enabled": False,
     "distributed.worker.memory.monitor-interval": "5s",
     "distributed.admin.system-monitor.interval": "10s",
