@@ -121,14 +121,17 @@ def test_an_error_without_a_signal_is_none_of_an_interruption(
     assert "RuntimeError: no luck" in capsys.readouterr().err
 
 
+SWALLOWS = (
+    "import signal\n"
+    "try:\n    signal.raise_signal(signal.SIGTERM)\n    print('waited')\n"
+    "except BaseException:\n    print('swallowed')\n"
+)
+
+
 @pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="needs timers of the system")
 @pytest.mark.parametrize("block", ["nullcontext()", "interrupts()"])
 def test_interrupt_waits_for_the_end_of_an_import(tmp_path: Path, block: str) -> None:
-    (tmp_path / "swallows.py").write_text(
-        "import signal\n"
-        "try:\n    signal.raise_signal(signal.SIGTERM)\n    print('waited')\n"
-        "except BaseException:\n    print('swallowed')\n"
-    )
+    (tmp_path / "swallows.py").write_text(SWALLOWS)
     code = f"""
 import sys, time
 from contextlib import nullcontext
@@ -139,6 +142,25 @@ def late(*given, **more):
     with {block}:
         import swallows
         time.sleep(20)
+cli.main = late
+sys.exit(main(["demo"]))
+"""
+    run = run_script(code)
+    assert (run.returncode, run.stdout, run.stderr) == (130, "waited\n", "mre-core: interrupted\n")
+
+
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="needs timers of the system")
+def test_interrupt_does_not_wait_for_the_import_of_a_module_of_ours(tmp_path: Path) -> None:
+    (tmp_path / "swallows.py").write_text(SWALLOWS)
+    (tmp_path / "ours.py").write_text("import swallows\nimport time\ntime.sleep(2)\nprint('waited long')\n")
+    code = f"""
+import sys
+import mre_core
+from mre_core.cli.main import cli, main
+sys.path.insert(0, {str(tmp_path)!r})
+mre_core.__path__.append({str(tmp_path)!r})
+def late(*given, **more):
+    import mre_core.ours
 cli.main = late
 sys.exit(main(["demo"]))
 """

@@ -10,6 +10,7 @@ from typing import Any, Self
 
 _SIGNALS = (signal.SIGINT, signal.SIGTERM)
 _AGAIN = getattr(signal, "SIGALRM", None)
+_OURS = __name__.partition(".")[0]
 _SOON = 0.02
 """Seconds after which an interruption that fell into an import is raised again."""
 
@@ -17,8 +18,8 @@ _SOON = 0.02
 class Interruptions:
     """Let Ctrl-C and SIGTERM both raise KeyboardInterrupt in the main thread, and remember that one came.
 
-    One that falls into an import waits for its end, where the system has timers: imports of others swallow
-    it, or let it out as another error.
+    One that falls into the import of another package waits for its end, where the system has timers: such an
+    import swallows it, or lets it out as another error. Modules of this package pass it on at once.
     """
 
     def __init__(self) -> None:
@@ -52,9 +53,14 @@ class Interruptions:
             raise KeyboardInterrupt
 
     def _importing(self, frame: FrameType | None) -> bool:
+        """Tell whether code of another package runs because it is being imported."""
+        others = False
         while frame is not None and frame is not self._outside:
             if frame.f_code.co_filename.startswith("<frozen importlib"):
-                return True
+                if others:
+                    return True
+            else:
+                others = str(frame.f_globals.get("__name__")).partition(".")[0] != _OURS
             frame = frame.f_back
         return False
 
