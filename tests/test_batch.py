@@ -23,6 +23,7 @@ from mre_core.batches.child import Child
 from mre_core.batches.drive import chunk_size, drive
 from mre_core.batches.engine import Engine
 from mre_core.batches.items import find_items
+from mre_core.batches.jobs import identified
 from mre_core.batches.settings import Reading, Settings
 from mre_core.batches.work import Outcome, Task
 from pandas.testing import assert_frame_equal
@@ -55,7 +56,7 @@ def task_of(folder: Path, **given: object) -> Task:
     """The first item of a folder."""
     settings = Settings.of("sinh", None, Reading(), {"optimizer": "exact"} | given, None)
     item = find_items(folder)[0]
-    return Task(item.name, tuple(map(str, item.files)), item.digest, 1, settings)
+    return Task(item.name, tuple(map(str, item.files)), item.digest, 1, settings, identified)
 
 
 @pytest.fixture(scope="module")
@@ -437,7 +438,7 @@ def test_refused(cli: Cli, five: Path, tmp_path: Path) -> None:
         return err.removeprefix("mre-core: ").rstrip()
 
     with FileLock(out / "batch.lock"):
-        assert refused(*sinh) == f"{out}: another batch is at work there, wanted another folder"
+        assert refused(*sinh) == f"{out}: another batch is at work there, wanted its end, or another folder"
     assert "a batch with other settings is there (model sinh, now kelvin_voigt)" in refused(
         *good, "--model", "kelvin_voigt"
     )

@@ -1,10 +1,13 @@
 """Batches on Dask workers, which are real processes on this machine."""
 
+import json
+import shutil
 import signal
 import subprocess
 import sys
 import time
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +15,7 @@ import mre_core
 import pytest
 from mre_core import InputError
 from mre_core.batches.cluster import _check_workers, cluster_engine
+from mre_core.trial import Case, make_trial, open_trial, run_trial
 from pandas.testing import assert_frame_equal
 from rig import Cli
 from test_batch import lasting, recordings
@@ -53,8 +57,6 @@ class Workers:
         return worker
 
     def address(self) -> str:
-        import json
-
         return str(json.loads(self.address_file.read_text())["address"])
 
     def close(self) -> None:
@@ -90,6 +92,29 @@ def test_a_worker_is_killed(cluster: Workers, tmp_path: Path) -> None:
     assert_frame_equal(lasting(there), lasting(whole), check_exact=True)
     assert seen == sorted(set(seen))
     assert seen[-1] == 17
+
+
+def test_a_worker_is_killed_in_a_trial(cluster: Workers, tmp_path: Path) -> None:
+    case = Case(("inertia",), ("mass",), "kelvin_voigt", 3.0, "white", "given", "rich", None, 0.01, 0.0, 3)
+    make_trial(tmp_path / "here", [replace(case, seed=i) for i in range(4)], seed=9, workers=2)
+    shutil.copytree(tmp_path / "here", tmp_path / "there")
+    assert run_trial(tmp_path / "here", workers=2) == 4
+    victim = cluster.add()
+    cluster.add()
+
+    def kill(done: int, count: int) -> None:
+        if done == 1:
+            victim.send_signal(signal.SIGKILL)
+
+    assert run_trial(tmp_path / "there", cluster=cluster.address(), on_done=kill) == 4
+    assert victim.wait() == -signal.SIGKILL
+    for folder in ("here", "there"):
+        open_trial(tmp_path / folder)
+    for here in (tmp_path / "here" / "diagnoses").glob("*.json"):
+        one, other = (
+            json.loads(file.read_text()) for file in (here, tmp_path / "there/diagnoses" / here.name)
+        )
+        assert one | {"seconds": 0} == other | {"seconds": 0}
 
 
 def test_without_shared_files_and_with_several_threads(

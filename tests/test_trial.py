@@ -6,11 +6,15 @@ import signal
 import subprocess
 import time
 from collections.abc import Callable
+from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
+from typing import Any
 
 import mre_core
 import numpy as np
 import pytest
+from mre_core.batches.journal import alone_in
+from mre_core.batches.work import Task
 from mre_core.trial import Case, make_trial, open_trial, run_trial
 from rig import Cli, command, everything_in
 
@@ -115,6 +119,32 @@ def test_a_diagnosis_that_fails_is_an_outcome(made: tuple[Path, str], tmp_path: 
     assert "samples" in json.loads((folder / "diagnoses/0001.json").read_text(encoding="utf-8"))["error"]
     with pytest.raises(mre_core.InputError, match="case 0001 was diagnosed from recordings that are not"):
         open_trial(folder)
+
+
+def test_cases_that_another_attempt_may_do_are_told(copy: Path, cli: Cli) -> None:
+    before = json.loads((copy / "diagnoses/0002.json").read_text(encoding="utf-8"))
+    for file in (copy / "diagnoses").glob("*.json"):
+        file.unlink()
+    with ThreadPoolExecutor(1) as executor:
+        submit = executor.submit
+
+        def broken(work: Any, tasks: list[Task], *rest: Any) -> "Future[Any]":
+            return submit(divmod, 1, 0) if tasks[0].item == "0001" else submit(work, tasks, *rest)
+
+        executor.submit = broken  # type: ignore[assignment]
+        problem = (
+            r"trial: 1 of 2 cases were not diagnosed \(case 0001: its worker failed: ZeroDivisionError: .*"
+        )
+        with pytest.raises(mre_core.InputError, match=problem + r"\), wanted --resume to try them again"):
+            run_trial(copy, executor=executor)
+    assert not (copy / "diagnoses/0001.json").exists()
+    after = json.loads((copy / "diagnoses/0002.json").read_text(encoding="utf-8"))
+    assert after["diagnosis"] == before["diagnosis"]
+    with alone_in(copy / "diagnoses"):
+        status, out, err = cli("trial", "run", copy, "--resume")
+    assert (status, out) == (2, "")
+    assert "another batch is at work there, wanted its end" in err
+    assert cli("trial", "run", copy, "--resume") == (0, "1 cases diagnosed\n", "")
 
 
 def edit(path: Path, old: str, new: str) -> None:
@@ -222,7 +252,9 @@ def test_ctrl_c_leaves_whole_files(tmp_path: Path, workers: str) -> None:
     out, err = running.communicate(timeout=60)
     assert running.returncode == 130, err
     assert (out, err.strip()) == ("", "mre-core: interrupted")
-    assert {path.name for path in (folder / "diagnoses").iterdir()} <= {f"000{i}.json" for i in range(1, 5)}
+    assert {path.name for path in (folder / "diagnoses").iterdir()} <= {"batch.lock"} | {
+        f"000{i}.json" for i in range(1, 5)
+    }
     assert json.loads((folder / "diagnoses/0001.json").read_text(encoding="utf-8"))["case"] == "0001"
 
 

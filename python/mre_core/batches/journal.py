@@ -139,6 +139,19 @@ def _differences(before: Any, now: Any, name: str = "") -> list[str]:
 @contextmanager
 def journal_in(out: Path) -> Iterator[Journal]:
     """Open the journal of a folder, which is made if need be, for this batch alone."""
+    with alone_in(out), Journal(out / JOURNAL) as journal:
+        yield journal
+
+
+@contextmanager
+def alone_in(out: Path) -> Iterator[None]:
+    """Make a folder if need be, and keep other batches out of it.
+
+    Raises
+    ------
+    InputError
+        Another one is at work there, or it cannot be written.
+    """
     from filelock import FileLock, Timeout
 
     try:
@@ -146,9 +159,10 @@ def journal_in(out: Path) -> Iterator[Journal]:
         lock = FileLock(out / LOCK, timeout=0)
         lock.acquire()
     except Timeout:
-        raise InputError("another batch is at work there", file=str(out), wanted="another folder") from None
+        problem = "another batch is at work there"
+        raise InputError(problem, file=str(out), wanted="its end, or another folder") from None
     except OSError as error:
         problem = f"cannot be written: {error.strerror or error}"
         raise InputError(problem, file=str(out), wanted="a folder to write to") from None
-    with lock, Journal(out / JOURNAL) as journal:
-        yield journal
+    with lock:
+        yield

@@ -12,6 +12,7 @@ from .._core import __version__
 from ..output import staged
 from .columns import MODELS, RESULTS, to_table
 from .items import Item
+from .jobs import JOBS
 from .journal import Entry, Journal
 from .run import OnProgress
 from .settings import Settings
@@ -45,7 +46,8 @@ class Ledger:
                 self._count(name, entry.row)
             else:
                 files = tuple(realpath(file) for file in item.files)
-                self.left.append(Task(name, files, item.digest, seed, settings, threads))
+                job = JOBS[settings.job]
+                self.left.append(Task(name, files, item.digest, seed, settings, job, threads))
 
     def keeper(self, on_progress: OnProgress | None) -> Callable[[list[Outcome]], None]:
         """Make a function that keeps outcomes and tells how far the batch is."""

@@ -3,7 +3,7 @@
 import tempfile
 import time
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -12,9 +12,7 @@ from typing import Any
 from .._core import Recording, __version__
 from ..errors import InputError, MreError, one_line
 from ..files.table import NotesError
-from ..output import to_json
 from .items import digest_of, digest_of_all
-from .rows import row_of_diagnosis, row_of_identification
 from .settings import Settings
 
 
@@ -27,6 +25,8 @@ class Task:
     digest: str
     seed: int
     settings: Settings
+    job: Callable[[list[Recording], "Task"], tuple[dict[str, Any], str | None]]
+    """A function at the top of a module, which makes a row of results and the content of a model file."""
     threads: int = 1
     version: str = __version__
     contents: tuple[bytes, ...] | None = None
@@ -52,7 +52,7 @@ class Outcome:
 
 
 def work(task: Task) -> Outcome:
-    """Identify or diagnose one item."""
+    """Do the job of one item."""
     if task.version != __version__:
         other = f"its worker has version {__version__}, wanted {task.version}"
         return Outcome(task.item, task.seed, error=other, lasting=False)
@@ -63,7 +63,7 @@ def work(task: Task) -> Outcome:
         with _files(task) as files, warnings.catch_warnings(record=True) as said:
             warnings.simplefilter("always")
             try:
-                row, model = _result(_loaded(files, task), task)
+                row, model = task.job(_loaded(files, task), task)
             except MreError as problem:
                 error = _without_folders(str(problem), files, task)
                 notes = isinstance(problem, NotesError) and _is_for_notes(problem.file)
@@ -119,17 +119,3 @@ def _loaded(files: list[Path], task: Task) -> list[Recording]:
             "changed since the batch began", file=task.item, wanted="files that stay as they are"
         )
     return recordings
-
-
-def _result(recordings: list[Recording], task: Task) -> tuple[dict[str, Any], str]:
-    from ..diagnose import diagnose
-    from ..identify import identify
-
-    settings = task.settings
-    common: dict[str, Any] = {**settings.options, "seed": task.seed, "threads": task.threads}
-    if settings.job == "diagnose":
-        diagnosis = diagnose(recordings, settings.given_model(), **common)
-        return row_of_diagnosis(diagnosis, recordings), to_json(diagnosis.model.to_dict())
-    found = identify(recordings, settings.given_model(), **common)
-    boot = [] if settings.bootstrap is None else found.bootstrap(settings.bootstrap, threads=task.threads)
-    return row_of_identification(found, boot, recordings), to_json(found.model.to_dict())

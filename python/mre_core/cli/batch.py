@@ -8,7 +8,7 @@ import click
 
 from ..errors import InputError
 from .arguments import pairs, read_bounds, read_interval, read_parts, read_seeds
-from .options import WHOLE, common_options, fit_options, report_options, trim_options
+from .options import WHOLE, cluster_option, common_options, fit_options, report_options, trim_options
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -44,9 +44,7 @@ _SHOWN = 20
 @click.option("--budget", type=float, metavar="S", help="Seconds that one item may take.")
 @click.option("--workers", type=WHOLE, help="Processes on this machine; one a core by default.")
 @click.option("--threads", type=WHOLE, default=1, show_default=True, help="Threads of one item.")
-@click.option(
-    "--cluster", metavar="ADDRESS|local:N", help="A Dask scheduler, or N Dask workers on this machine."
-)
+@cluster_option
 @click.option("--no-figures", is_flag=True, help="Write no figures.")
 @report_options
 @common_options

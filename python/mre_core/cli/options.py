@@ -39,6 +39,13 @@ def config_option(command: F) -> F:
     )(command)
 
 
+def cluster_option(command: F) -> F:
+    """Where the items of a batch are worked on."""
+    return click.option(
+        "--cluster", metavar="ADDRESS|local:N", help="A Dask scheduler, or N Dask workers on this machine."
+    )(command)
+
+
 def common_options(command: F) -> F:
     """Options of every command that reads recordings."""
     options = [

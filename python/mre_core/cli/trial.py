@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from .options import WHOLE, config_option
+from .options import WHOLE, cluster_option, config_option
 
 if TYPE_CHECKING:
     from ..trial import Opening
@@ -60,9 +60,10 @@ def make(folder: Path, cases: int, seed: int | None, workers: int | None, quiet:
 @_folder
 @click.option("--resume", is_flag=True, help="Go on with a run that was stopped.")
 @_workers
+@cluster_option
 @_quiet
 @config_option
-def run(folder: Path, resume: bool, workers: int | None, quiet: bool) -> None:
+def run(folder: Path, resume: bool, workers: int | None, cluster: str | None, quiet: bool) -> None:
     """Diagnose the recordings in DIR. The answers are not read and need not be there."""
     from ..output import staged
     from ..trial import run_trial
@@ -70,7 +71,7 @@ def run(folder: Path, resume: bool, workers: int | None, quiet: bool) -> None:
     from .settings import write_settings
 
     with counted("diagnosing", quiet=quiet) as advance:
-        done = run_trial(folder, resume=resume, workers=workers, on_done=advance)
+        done = run_trial(folder, resume=resume, workers=workers, cluster=cluster, on_done=advance)
     with staged(folder) as stage:
         write_settings(stage, folder, "run.settings.toml")
     click.echo(f"{done} cases diagnosed")

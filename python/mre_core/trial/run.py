@@ -1,19 +1,23 @@
 """Diagnose the recordings of a trial, which is all that is read of it."""
 
 import os
-import time
-import warnings
 from collections.abc import Callable
-from dataclasses import dataclass
+from concurrent.futures import Executor
 from pathlib import Path
 from typing import Any
 
+from .._core import Recording
+from ..batches.drive import drive
+from ..batches.engine import chosen_engine
+from ..batches.items import digest_of, digest_of_all
+from ..batches.journal import alone_in
+from ..batches.settings import Reading, Settings
+from ..batches.work import Outcome, Task
 from ..checks import flag
 from ..checks import workers as worker_count
-from ..errors import InputError, MreError, UnitAssumedWarning
+from ..errors import InputError
 from ..output import staged
 from .files import DIAGNOSIS, Folder, digest, read
-from .workers import spread
 
 
 def run_trial(
@@ -21,6 +25,8 @@ def run_trial(
     *,
     resume: bool = False,
     workers: int | None = None,
+    cluster: str | None = None,
+    executor: Executor | None = None,
     on_done: Callable[[int, int], None] | None = None,
 ) -> int:
     """Diagnose every case of a trial from its recordings and the name of its base model.
@@ -36,6 +42,10 @@ def run_trial(
         Go on with a run: cases that have a diagnosis keep it.
     workers : int, optional
         Processes with one thread each; one for each core by default.
+    cluster : str, optional
+        Address of a Dask scheduler, or ``local:N`` for N Dask workers on this machine.
+    executor : concurrent.futures.Executor, optional
+        Takes the cases instead. Its workers have to see the files.
     on_done : callable, optional
         Gets the number of cases done and of all cases, once before the first.
 
@@ -47,7 +57,9 @@ def run_trial(
     Raises
     ------
     InputError
-        The folder holds no trial or one that was opened or run already, or recordings are missing.
+        The folder holds no trial, or one that was opened, was run or is being run already; recordings are
+        missing; the scheduler cannot be reached, or the workers are gone. At the end, where cases failed in a
+        way that another attempt may not: for want of memory, or because a file could not be read.
     """
     resume = flag(resume, "resume")
     worker_count(workers, "workers")
@@ -71,48 +83,47 @@ def run_trial(
     for case in cases:
         if not folder.recordings(case):
             raise InputError(f"case {case} has no recordings", file=str(folder.root), wanted="CSV files")
-    jobs = [_Job(folder.root, case, base) for case, base in cases.items() if case not in done]
     if on_done is not None:
         on_done(len(done), len(cases))
+    left = {case: _task(folder, case, base) for case, base in cases.items() if case not in done}
+    sums = {case: digest(folder.recordings(case)) for case in left}
+    failed: list[Outcome] = []
 
-    def take(found: dict[str, Any]) -> None:
-        with staged(folder.diagnoses) as stage:
-            stage.write_json(f"{found['case']}.json", found)
-        done.append(found["case"])
+    def take(outcomes: list[Outcome]) -> None:
+        for outcome in outcomes:
+            if not outcome.lasting:
+                failed.append(outcome)
+                continue
+            found = {"schema": DIAGNOSIS, "case": outcome.item, "recordings_sha256": sums[outcome.item]}
+            found |= {"error": outcome.error} if outcome.error else outcome.row
+            with staged(folder.diagnoses) as stage:
+                stage.write_json(f"{outcome.item}.json", found | {"seconds": outcome.seconds})
+            done.append(outcome.item)
         if on_done is not None:
             on_done(len(done), len(cases))
 
-    spread(_diagnose, jobs, take, workers)
-    return len(jobs)
+    with (
+        chosen_engine(workers, 1, cluster, executor, folder.root) as engine,
+        alone_in(folder.diagnoses),
+    ):
+        drive(list(left.values()), engine, None, take)
+    if failed:
+        first = f"case {failed[0].item}: {failed[0].error}"
+        problem = f"{len(failed)} of {len(cases)} cases were not diagnosed ({first})"
+        raise InputError(problem, file=str(folder.root), wanted="--resume to try them again")
+    return len(left)
 
 
-@dataclass(frozen=True)
-class _Job:
-    root: Path
-    case: str
-    base: str
+def _task(folder: Folder, case: str, base: str) -> Task:
+    files = [path.resolve() for path in folder.recordings(case)]
+    content = digest_of_all([digest_of(file) for file in files])
+    settings = Settings.of(None, base, Reading(), {}, None)
+    return Task(case, tuple(map(str, files)), content, 1, settings, _diagnosis)
 
 
-def _diagnose(job: _Job) -> dict[str, Any]:
-    """Diagnose one case. An error of the diagnosis is an outcome, too."""
+def _diagnosis(recordings: list[Recording], task: Task) -> tuple[dict[str, Any], None]:
+    """Diagnose one case: all of what is found, where a batch keeps a row of it."""
     from ..diagnose import diagnose
-    from ..load import load
 
-    folder = Folder(job.root)
-    paths = folder.recordings(job.case)
-    found: dict[str, Any] = {
-        "schema": DIAGNOSIS,
-        "case": job.case,
-        "recordings_sha256": digest(paths),
-    }
-    start = time.perf_counter()
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", UnitAssumedWarning)
-            found["diagnosis"] = diagnose(
-                [load(path) for path in paths], job.base, seed=1, threads=1
-            ).to_dict()
-    except MreError as error:
-        found["error"] = str(error)
-    found["seconds"] = time.perf_counter() - start
-    return found
+    found = diagnose(recordings, task.settings.given_model(), seed=task.seed, threads=task.threads)
+    return {"diagnosis": found.to_dict()}, None
