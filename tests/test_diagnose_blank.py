@@ -9,6 +9,7 @@ from missing import campaign, with_series
 from mre_core import Recording, words
 from mre_core.report import report_diagnosis
 from rig import Cli, force_of
+from scipy.stats import binomtest  # type: ignore[import-untyped]
 
 EFFECTS = {row["id"] for row in mre_core._core.catalogue()}
 
@@ -43,7 +44,9 @@ def test_what_was_named_is_counted() -> None:
     assert set(found["by_effect"]) <= EFFECTS
     assert found["named"] <= sum(found["by_effect"].values()) <= 4 * found["named"]
     assert found["named"] + found["unexplained"] <= 10
-    assert found["low"] < found["rate"] == found["named"] / 10 < found["high"]
+    assert found["rate"] == found["named"] / 10
+    ends = binomtest(found["named"], 10).proportion_ci(0.95, method="exact")
+    assert (found["low"], found["high"]) == pytest.approx((ends.low, ends.high), rel=1e-9)
 
 
 @pytest.mark.parametrize("base", ["sinh", "kelvin_voigt"])

@@ -79,6 +79,18 @@ def flag(value: object, name: str) -> bool:
     raise InputError(f"{name} is {shown(value)}", wanted="True or False")
 
 
+def check_listener(value: object, name: str) -> None:
+    """Refuse, before the work begins, what cannot be called while it goes on.
+
+    Raises
+    ------
+    TypeError
+        It is neither None nor callable.
+    """
+    if value is not None and not callable(value):
+        raise TypeError(f"{name} is {shown(value)}: wanted a function")
+
+
 def check_name(path: str | os.PathLike[str]) -> None:
     """Refuse a name that cannot be written.
 

@@ -6,7 +6,7 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from threading import Event
 from typing import Any, TypeVar
 
-from .checks import workers
+from .checks import check_listener, workers
 
 Job = TypeVar("Job")
 Outcome = TypeVar("Outcome")
@@ -28,9 +28,12 @@ class Crew:
     ------
     InputError
         It is no number of threads.
+    TypeError
+        `on_progress` is no function.
     """
 
     def __init__(self, threads: int | None = None, on_progress: OnProgress | None = None) -> None:
+        check_listener(on_progress, "on_progress")
         self._threads = workers(threads) or os.cpu_count() or 1
         self._on_progress = on_progress or (lambda *_: None)
         self._stop = Event()

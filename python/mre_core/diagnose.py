@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _core
 from ._core import Recording
-from .checks import choice, flag, whole, workers
+from .checks import check_listener, choice, flag, whole, workers
 from .diagnosis import Diagnosis, History
 from .errors import InputError, shown
 from .findings import (
@@ -115,6 +115,7 @@ def diagnose(
     name = start.name if isinstance(start, Model) else start
     given = start.levels if isinstance(start, Model) and fixed else None
     check_false_alarm(false_alarm)
+    check_listener(on_stage, "on_stage")
     blank = whole(blank, "blank", 0, MOST_BLANKS)
     seed = draw_seed(seed)
     groups = group_by_current(everything)

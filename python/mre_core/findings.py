@@ -121,13 +121,14 @@ def blank_of(raw: Raw, stated: float) -> dict[str, Any] | None:
     found = raw["blank"]
     if found is None:
         return None
-    from scipy.stats import binomtest  # type: ignore[import-untyped]
+    from scipy.special import betaincinv  # type: ignore[import-untyped]  # scipy.stats takes a second to come
 
     count, named = found["count"], found["named"]
-    ends = binomtest(named, count).proportion_ci(0.95, method="exact")
+    low = betaincinv(named, count - named + 1, 0.025) if named else 0.0
+    high = betaincinv(named + 1, count - named, 0.975) if named < count else 1.0
     return {
         **{"count": count, "named": named, "rate": named / count},
-        **{"low": float(ends.low), "high": float(ends.high), "stated": stated},
+        **{"low": float(low), "high": float(high), "stated": stated},
         **{"unexplained": found["unexplained"], "by_effect": found["by_effect"]},
     }
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from ._core import Problem, Recording, check_certifiable, models, parameters
 from .certificate import certificate
-from .checks import choice, flag
+from .checks import check_listener, choice, flag
 from .errors import InputError, MreError
 from .fits import exact, hybrid
 from .grouping import check_once, each_of, group_by_current
@@ -80,6 +80,7 @@ def identify(
     """
     choice(optimizer, "optimizer", OPTIMIZERS)
     certify = flag(certify, "certify")
+    check_listener(on_level, "on_level")
     name = model.name if isinstance(model, Model) else choice(model, "model", models())
     everything = list(each_of(recordings))
     groups = group_by_current(everything)

@@ -59,6 +59,16 @@ JOBS = {
     ),
     "identify: 10^30 threads": identify(f"threads is {BIG}", "1 to 1024", threads=BIG),
     "identify: a text for a truth value": identify("certify is 'no'", "True or False", certify="no"),
+    "identify: a number for a function": typed(
+        partial(mre_core.identify, GOOD, on_level=3), "on_level is 3", "a function"
+    ),
+    "fitness: 10^30 threads": typed(
+        lambda: mre_core.Problem(GOOD, "sinh").fitness([0.1] * 5, threads=BIG), "threads", "too many digits"
+    ),
+    "cut: a number of 600 digits": typed(lambda: GOOD.cut(0, 10**600), "stop", "too many digits"),
+    "inertia weight: 10^30 iterations": typed(
+        lambda: mre_core.inertia_weight(1, BIG, 2), "iterations", "too many digits"
+    ),
     "exact: 10^30 threads": Call(
         lambda: mre_core.exact(mre_core.Problem(GOOD, "sinh"), threads=BIG), ["threads is 1000", "1 to 1024"]
     ),
@@ -68,6 +78,9 @@ JOBS = {
     "model: an array for a name": Call(lambda: mre_core.Model(ARRAY, ()), ["model is ['exact'", "sinh"]),
     "fit_laws: an array for weights": Call(
         lambda: mre_core.fit_laws(GOOD, weights=ARRAY), ["weights is ['exact'", "samples, force"]
+    ),
+    "diagnose: a number for a function": typed(
+        partial(mre_core.diagnose, GOOD, on_stage=3), "on_stage is 3", "a function"
     ),
     "diagnose: 10^30 threads": diagnose(f"threads is {BIG}", "1 to 1024", threads=BIG),
     "diagnose: a number of 400 digits": diagnose("false_alarm is 1000", "below 0.5", false_alarm=10**400),
@@ -96,6 +109,7 @@ JOBS = {
     "batch: bounds that are a text": Call(
         partial(batch, bounds="x"), ["bounds is 'x'", "a mapping"], TypeError
     ),
+    "batch: a number for a function": typed(partial(batch, on_progress=3), "on_progress is 3", "a function"),
     "batch: 10^30 threads": in_batch("threads is 1000", "1 to 1024", threads=BIG),
     "batch: a text for a truth value": in_batch("fixed is 'no'", "True or False", base="sinh", fixed="no"),
     "batch: a null byte": Call(
@@ -109,12 +123,16 @@ JOBS = {
     "next test: a speed that moves nothing": signal("the signal moves", "at least 1e-06 mm", speed=1e-6),
     "study: numbers for recordings": typed(lambda: untyped_study([3]), "recordings hold 3 at place 0"),
     "study: a number for an effort": typed(lambda: untyped_study(effort=3), "effort is 3", "an Effort"),
+    "study: a number for a function": typed(
+        lambda: untyped_study(on_progress=3), "on_progress is 3", "a function"
+    ),
     "study: 10^30 threads": Call(lambda: untyped_study(threads=BIG), ["threads is 1000", "1 to 1024"]),
     "study: a part of a repetition": Call(lambda: effort(1.5, 1, 1), ["seeds is 1.5", "a whole number"]),
     "trial: an array for cases": typed(lambda: make("new", np.arange(3)), "cases hold 0", "Case"),
     "trial: no cases": trial("the number of cases is 0", "from 1", cases=[]),
     "trial: a seed of 129 bits": trial("seed is 3402", "a whole number", seed=2**128),
     "trial: a part of a worker": trial("workers is 1.5", "a whole number", workers=1.5),
+    "trial: a number for a function": typed(lambda: make("new", 1, on_done=3), "on_done is 3", "a function"),
     "trial: a null byte": Call(lambda: make("a\0b", 1), ["a?b: its name holds a null byte"]),
     "trial: a text for a truth value": Call(
         lambda: run_trial("new", resume="no"),  # type: ignore[arg-type]

@@ -66,7 +66,7 @@ JOBS = {
     "diagnose": Job(campaign, DIAGNOSE, 6.0),
     "diagnose, blank": Job(campaign, [*DIAGNOSE, "--blank", "20"], 12.0),
     "laws": Job(campaign, [*LAWS, "--quiet", "--out", "out"], 6.0),
-    "batch": Job(several, [*BATCH, "--out", "out"], 3.0),
+    "batch": Job(several, [*BATCH, "--out", "out"], 2.0),
     "trial run": Job(trial, [*RUN, "--workers", "2"], 6.0),
     "trial run, one process": Job(trial, [*RUN, "--workers", "1"], 6.0),
     "study": Job(lambda folder: None, ["study", "--quick", "--out", "out"], 5.0),

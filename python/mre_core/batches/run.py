@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .._core import __version__
-from ..checks import MOST_WORKERS, check_name, texts, whole
+from ..checks import MOST_WORKERS, check_listener, check_name, texts, whole
 from ..checks import workers as worker_count
 from ..errors import InputError, SkippedWarning, listed, mapping, shown
 from ..minimise import draw_seed
@@ -114,6 +114,7 @@ def batch(
 
     for place in (folder, out):
         check_name(place)
+    check_listener(on_progress, "on_progress")
     reading = Reading(
         dict(mapping("map", map, "role to column")),
         dict(mapping("conditions", conditions, "role to value")),

@@ -70,7 +70,7 @@ def read_spread(
     residuals is given back as one factor, from the number of values among the independent samples that
     the noise amounts to.
     """
-    from scipy.stats import t as student  # type: ignore[import-untyped]
+    from scipy.special import stdtrit  # type: ignore[import-untyped]  # scipy.stats takes a second to come
 
     units = dict(zip(campaign.structure.names, campaign.structure.units, strict=True))
     values = values_of(joint.parameters, units, over)
@@ -98,7 +98,7 @@ def read_spread(
     covariance = np.zeros((size, size))
     place = np.ix_(free, free)
     covariance[place] = _sandwich(plain[place], noisy[place]) * independent / freedom
-    quantile = float(student.ppf(0.5 + LEVEL / 2, freedom))
+    quantile = float(stdtrit(freedom, 0.5 + LEVEL / 2))
     about_mean = np.sqrt(max(second / total - (first / total) ** 2, 0.0))
     # By how much a value may be off without the force telling.
     little = np.full(size, np.inf)

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from .._core import __version__
-from ..checks import whole
+from ..checks import check_listener, whole
 from ..checks import workers as worker_count
 from ..errors import InputError, shown
 from ..output import staged
@@ -64,6 +64,7 @@ def make_trial(
     if taken:
         raise InputError(f"holds {taken[0].name} already", file=str(folder.root), wanted="a new folder")
     worker_count(workers, "workers")
+    check_listener(on_done, "on_done")
     drawn = secrets.randbits(SEED_BITS) if seed is None else whole(seed, "seed", 0, 2**SEED_BITS - 1)
     planned = _planned(cases, drawn)
     with staged(folder.root) as stage:

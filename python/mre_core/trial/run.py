@@ -13,7 +13,7 @@ from ..batches.items import digest_of, digest_of_all
 from ..batches.journal import alone_in
 from ..batches.settings import Reading, Settings
 from ..batches.work import Outcome, Task
-from ..checks import flag
+from ..checks import check_listener, flag
 from ..checks import workers as worker_count
 from ..errors import InputError
 from ..output import staged
@@ -63,6 +63,7 @@ def run_trial(
     """
     resume = flag(resume, "resume")
     worker_count(workers, "workers")
+    check_listener(on_done, "on_done")
     folder = Folder(Path(directory))
     cases = folder.cases()
     if folder.results.exists():

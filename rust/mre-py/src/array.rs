@@ -15,18 +15,22 @@ pub(crate) fn numpy_is_there(py: Python<'_>) -> PyResult<()> {
 
 /// A one-dimensional array of numbers, copied: the caller may go on writing to its own.
 pub(crate) fn vector(what: &str, value: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
-    numpy_is_there(value.py())?;
     let wanted = "a one-dimensional array of numbers";
-    let array = plain(value).ok_or_else(|| unreadable(what, value, wanted))?;
+    let array = plain(value)?.ok_or_else(|| unreadable(what, value, wanted))?;
     match array.extract::<PyArrayLike1<'_, f64, AllowTypeChange>>() {
         Ok(array) => Ok(array.as_array().iter().copied().collect()),
         Err(_) => Err(unreadable(what, value, wanted)),
     }
 }
 
-/// The value as a NumPy array of real numbers without a mask. NumPy itself would turn words into
-/// numbers, drop imaginary parts and forget masks.
-fn plain<'py>(value: &Bound<'py, PyAny>) -> Option<Bound<'py, PyAny>> {
+/// The value as a NumPy array of real numbers; `None` where it is something else.
+fn plain<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, PyAny>>> {
+    numpy_is_there(value.py())?;
+    Ok(without_mask(value))
+}
+
+/// NumPy itself would turn words into numbers, drop imaginary parts and forget masks.
+fn without_mask<'py>(value: &Bound<'py, PyAny>) -> Option<Bound<'py, PyAny>> {
     let numpy = value.py().import("numpy").ok()?;
     if value.is_instance(&numpy.getattr("ma").ok()?.getattr("MaskedArray").ok()?).ok()? {
         return None;
@@ -46,9 +50,8 @@ fn plain<'py>(value: &Bound<'py, PyAny>) -> Option<Bound<'py, PyAny>> {
 
 /// Rows of `columns` numbers; a single row may come one-dimensional. The flag says whether it did.
 pub(crate) fn rows(what: &str, value: &Bound<'_, PyAny>, columns: usize) -> PyResult<(Vec<f64>, bool)> {
-    numpy_is_there(value.py())?;
     let wanted = format!("an array of shape (n, {columns}) or ({columns},)");
-    let array = plain(value).ok_or_else(|| unreadable(what, value, &wanted))?;
+    let array = plain(value)?.ok_or_else(|| unreadable(what, value, &wanted))?;
     if let Ok(array) = array.extract::<PyArrayLike2<'_, f64, AllowTypeChange>>() {
         return if array.shape()[1] == columns {
             Ok((array.as_array().iter().copied().collect(), false))

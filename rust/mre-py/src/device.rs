@@ -13,6 +13,7 @@ use crate::effects::{self, Given};
 use crate::error::{setting, to_python};
 use crate::recording::Recording;
 use crate::run::in_pool;
+use crate::scalars::Whole;
 
 /// Names of the models.
 #[pyfunction]
@@ -63,7 +64,7 @@ pub(crate) fn simulate<'py>(
     };
     // A pool of its own: the global one does not survive a fork.
     let job = |_: &_| assembly::simulate(&device, &additions, &sizes, &recording.inner);
-    let force = in_pool(py, Some(1), None, true, job)?.0.map_err(to_python)?;
+    let force = in_pool(py, Some(Whole(1)), None, true, job)?.0.map_err(to_python)?;
     Ok(PyArray1::from_vec(py, force))
 }
 

@@ -12,6 +12,7 @@ use crate::error::to_python;
 use crate::outcome::{history_to_python, name_of};
 use crate::problem::Problem;
 use crate::run::{Ended, Link, in_pool, raises};
+use crate::scalars::Whole;
 use crate::settings::{RunOptions, fish, run_options};
 
 type Outcome<'py> = (Bound<'py, PyArray1<f64>>, f64, u64, &'static str, Bound<'py, PyDict>);
@@ -28,7 +29,7 @@ fn outcome(py: Python<'_>, fit: fit::Fit, ended: Ended) -> PyResult<Outcome<'_>>
 pub(crate) fn fit_exact<'py>(
     py: Python<'py>,
     problem: &Problem,
-    threads: Option<i64>,
+    threads: Option<Whole>,
     on_interrupt: &str,
 ) -> PyResult<Outcome<'py>> {
     let raise = raises(on_interrupt)?;
@@ -71,7 +72,7 @@ pub(crate) fn certify(
     problem: &Problem,
     x: &Bound<'_, PyAny>,
     tolerance: f64,
-    threads: Option<i64>,
+    threads: Option<Whole>,
 ) -> PyResult<(f64, f64, bool, u64)> {
     let (row, _) = rows("x", x, problem.inner.parameters().len())?;
     let job = |link: &Link| {

@@ -15,6 +15,7 @@ mod outcome;
 mod problem;
 mod recording;
 mod run;
+mod scalars;
 mod settings;
 mod stream;
 mod swarm;

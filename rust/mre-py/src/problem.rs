@@ -14,6 +14,7 @@ use crate::bounds::by_name;
 use crate::error::{setting, to_python};
 use crate::recording::Recording;
 use crate::run::{Link, here, in_pool};
+use crate::scalars::Whole;
 use crate::stream;
 
 /// Fitness of a model's parameters on recordings: eq. 5 of Yu, Li and Li (ISARC 2014); immutable.
@@ -118,7 +119,7 @@ impl Problem {
         chunks: &Bound<'_, PyAny>,
         largest_displacement: f64,
         bounds: Option<&Bound<'_, PyAny>>,
-        threads: Option<i64>,
+        threads: Option<Whole>,
     ) -> PyResult<Self> {
         let core = stream::read(py, chunks, largest_displacement, &by_name(bounds)?, threads)?;
         Ok(Self { inner: Arc::new(core), recordings: Vec::new() })
@@ -167,7 +168,7 @@ impl Problem {
         &self,
         py: Python<'py>,
         x: &Bound<'py, PyAny>,
-        threads: Option<i64>,
+        threads: Option<Whole>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let (rows, single) = array::rows("x", x, self.inner.parameters().len())?;
         let count = rows.len() / self.inner.parameters().len();

@@ -11,6 +11,7 @@ use pyo3::types::{PyDict, PyTuple};
 use crate::array::vector;
 use crate::error::to_python;
 use crate::run::in_pool;
+use crate::scalars::Number;
 
 /// A validated recording; immutable.
 ///
@@ -170,8 +171,9 @@ impl Recording {
 
     /// Keep the part from `start` to `stop` (s). What is cut off is forgotten: a simulation starts rested.
     #[pyo3(signature = (start=None, stop=None))]
-    fn cut(&self, start: Option<f64>, stop: Option<f64>) -> PyResult<Self> {
-        wrap(self.inner.cut(start.unwrap_or(f64::NEG_INFINITY), stop.unwrap_or(f64::INFINITY)))
+    fn cut(&self, start: Option<Number>, stop: Option<Number>) -> PyResult<Self> {
+        let (start, stop) = (start.map_or(f64::NEG_INFINITY, |s| s.0), stop.map_or(f64::INFINITY, |s| s.0));
+        wrap(self.inner.cut(start, stop))
     }
 
     /// Leave "start_transient", "stop_transient" or both out of the fitness; they stay in simulations.

@@ -13,6 +13,7 @@ use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
 
 use crate::error::setting;
+use crate::scalars::Whole;
 
 const POLL: Duration = Duration::from_millis(50);
 
@@ -93,7 +94,7 @@ pub(crate) enum Ended {
 /// Ctrl-C, because nothing could end it early.
 pub(crate) fn here<R: Send>(
     py: Python<'_>,
-    threads: Option<i64>,
+    threads: Option<Whole>,
     job: impl FnOnce(&Link) -> R + Send,
 ) -> PyResult<R> {
     count(threads)?;
@@ -101,11 +102,11 @@ pub(crate) fn here<R: Send>(
 }
 
 /// The number of threads for rayon.
-fn count(threads: Option<i64>) -> PyResult<usize> {
+fn count(threads: Option<Whole>) -> PyResult<usize> {
     match threads {
         None => Ok(0), // rayon: as many as the machine has
-        Some(n @ 1..=1024) => Ok(n as usize),
-        Some(n) => Err(setting("threads", n, "a whole number from 1 to 1024")),
+        Some(Whole(n @ 1..=1024)) => Ok(n as usize),
+        Some(Whole(n)) => Err(setting("threads", n, "a whole number from 1 to 1024")),
     }
 }
 
@@ -115,7 +116,7 @@ fn count(threads: Option<i64>) -> PyResult<usize> {
 /// No pool is kept: its sleeping threads would be lost, with their locks, in a process that is forked.
 pub(crate) fn in_pool<R: Send>(
     py: Python<'_>,
-    threads: Option<i64>,
+    threads: Option<Whole>,
     callback: Option<&Py<PyAny>>,
     raise: bool,
     job: impl FnOnce(&Link) -> R + Send,
@@ -181,6 +182,6 @@ pub(crate) fn raises(on_interrupt: &str) -> PyResult<bool> {
     match on_interrupt {
         "raise" => Ok(true),
         "return" => Ok(false),
-        other => Err(setting("on_interrupt", format!("'{other}'"), "wanted 'raise' or 'return'")),
+        other => Err(setting("on_interrupt", format!("'{other}'"), "'raise' or 'return'")),
     }
 }

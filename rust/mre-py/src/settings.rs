@@ -9,6 +9,7 @@ use pyo3::types::{PyDict, PyInt};
 
 use crate::error::{of_type, quoted, setting, to_python};
 use crate::run::raises;
+use crate::scalars::Whole;
 
 fn count(name: &str, value: i64) -> PyResult<usize> {
     // Beyond ten million the swarm itself would not fit.
@@ -105,7 +106,7 @@ pub(crate) fn pso(settings: &Bound<'_, PyDict>) -> PyResult<PsoSettings> {
 #[derive(Default)]
 pub(crate) struct RunOptions {
     pub(crate) budget: Budget,
-    pub(crate) threads: Option<i64>,
+    pub(crate) threads: Option<Whole>,
     pub(crate) callback: Option<Py<PyAny>>,
     /// True where Ctrl-C raises, false where it returns the best so far.
     pub(crate) raise: bool,
@@ -130,7 +131,7 @@ pub(crate) fn run_options(keywords: Option<&Bound<'_, PyDict>>) -> PyResult<RunO
                     Some(time.map_err(|_| setting("time_limit", most, "a number of seconds above 0"))?);
             }
             "target" => options.budget.target = Some(number(keywords, "target")?),
-            "threads" => options.threads = Some(whole(keywords, "threads")?),
+            "threads" => options.threads = Some(Whole(whole(keywords, "threads")?)),
             "callback" => options.callback = Some(value.unbind()),
             "on_interrupt" => options.raise = raises(&item::<String>(keywords, "on_interrupt", "a text")?)?,
             other => {

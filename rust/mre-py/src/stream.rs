@@ -8,6 +8,7 @@ use crate::array::vector;
 use crate::error::{setting, to_python};
 use crate::recording::Recording;
 use crate::run::in_pool;
+use crate::scalars::Whole;
 
 /// The problem of all chunks.
 pub(crate) fn read(
@@ -15,7 +16,7 @@ pub(crate) fn read(
     chunks: &Bound<'_, PyAny>,
     largest_displacement: f64,
     bounds: &[(String, f64, f64)],
-    threads: Option<i64>,
+    threads: Option<Whole>,
 ) -> PyResult<Problem> {
     let mut stream = Stream::new(largest_displacement, bounds).map_err(to_python)?;
     for chunk in chunks.try_iter()? {

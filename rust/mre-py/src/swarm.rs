@@ -16,6 +16,7 @@ use crate::error::{MreError, setting, to_python};
 use crate::outcome::{history_to_python, name_of};
 use crate::problem::Problem;
 use crate::run::{Ended, in_pool};
+use crate::scalars::Whole;
 use crate::settings::{RunOptions, fish, pso, run_options};
 use crate::watch::Watch;
 
@@ -214,8 +215,8 @@ pub(crate) fn uniforms(py: Python<'_>, seed: u64, stream: usize, count: usize) -
 
 /// Eq. 8: `exp(-20 (iteration / iterations)^p)`.
 #[pyfunction]
-pub(crate) fn inertia_weight(iteration: i64, iterations: i64, p: i64) -> PyResult<f64> {
-    let whole = |name, value: i64, least| {
+pub(crate) fn inertia_weight(iteration: Whole, iterations: Whole, p: Whole) -> PyResult<f64> {
+    let whole = |name, Whole(value): Whole, least| {
         let wanted = format!("a whole number from {least} to 10000000");
         usize::try_from(value)
             .ok()

@@ -9,6 +9,7 @@ use crate::array::{matrix, vector};
 use crate::error::{setting, to_python};
 use crate::problem::Problem;
 use crate::run::{Link, in_pool};
+use crate::scalars::Whole;
 
 /// Name, unit, value, standard error, low, high, determined.
 type Row = (String, &'static str, f64, Option<f64>, Option<f64>, Option<f64>, bool);
@@ -33,7 +34,7 @@ pub(crate) fn fit_uncertainty<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let values = vector("x", x)?;
     let job = |link: &Link| uncertainty::estimate(&problem.inner, &values, level, link.cancel());
-    let found = in_pool(py, Some(1), None, true, job)?.0.map_err(to_python)?;
+    let found = in_pool(py, Some(Whole(1)), None, true, job)?.0.map_err(to_python)?;
     let d = values.len();
     let dict = PyDict::new(py);
     let rows = |estimates: Vec<Estimate>| estimates.into_iter().map(row).collect::<Vec<_>>();
@@ -69,7 +70,7 @@ pub(crate) fn fit_profile<'py>(
     problem: &Problem,
     x: &Bound<'py, PyAny>,
     level: f64,
-    threads: Option<i64>,
+    threads: Option<Whole>,
 ) -> PyResult<Vec<ProfileRow<'py>>> {
     let values = vector("x", x)?;
     let job = |link: &Link| uncertainty::profile(&problem.inner, &values, level, link.cancel());
@@ -93,7 +94,7 @@ pub(crate) fn fit_bootstrap<'py>(
     replicates: i64,
     seed: u64,
     level: f64,
-    threads: Option<i64>,
+    threads: Option<Whole>,
 ) -> PyResult<Replicates<'py>> {
     let values = vector("x", x)?;
     let count = usize::try_from(replicates)

@@ -16,6 +16,7 @@ use crate::effects::{self, Given, law_of};
 use crate::error::to_python;
 use crate::recording::Recording;
 use crate::run::{in_pool, raises};
+use crate::scalars::Whole;
 
 type Forces<'py> = Vec<Bound<'py, PyArray1<f64>>>;
 
@@ -44,7 +45,7 @@ pub(crate) fn diagnose_recordings<'py>(
     base_effects: Vec<(String, String, Vec<f64>)>,
     without: Vec<String>,
     blank: usize,
-    threads: Option<i64>,
+    threads: Option<Whole>,
     on_stage: Option<Py<PyAny>>,
     on_interrupt: &str,
 ) -> PyResult<(String, Forces<'py>, Forces<'py>)> {

@@ -129,7 +129,8 @@ fn one(
     let begun = begin(&campaign, &base, given, &rows, monitor);
     let splits = Splits::of(&campaign, &base);
     let search = Search { begun: &begun, rows: &rows, splits: &splits, settings: &settings, monitor };
-    let judged = judge(&begun, search.run(), &rows, settings.false_alarm, monitor);
+    let Some(found) = monitor.whole(search.run()) else { return Ok(None) };
+    let judged = judge(&begun, found, &rows, settings.false_alarm, monitor);
     let effects = judged.named.assembly.effects()[begun.assembly.effects().len()..].iter();
     let named = match judged.verdict {
         Verdict::Unexplained => Vec::new(),
