@@ -116,17 +116,18 @@ fn bouc_wen(c: &mut Criterion) {
             }
         }
         let (flat, recording) = (rows.as_flattened(), &problem.recordings()[0]);
+        let over = rivals::Intervals::of(recording);
         let never = AtomicBool::new(false);
         let mut costs = [0.0; rivals::LANES];
         problem.fitness(flat, &mut costs, &never);
-        alike(&costs, &rivals::bouc_wen_fitness(recording, &columns));
+        alike(&costs, &rivals::bouc_wen_fitness(recording, &over, &columns));
         race(
             c,
             name,
             rivals::LANES,
             || problem.fitness(black_box(flat), &mut costs, &never),
             || {
-                black_box(rivals::bouc_wen_fitness(recording, black_box(&columns)));
+                black_box(rivals::bouc_wen_fitness(recording, &over, black_box(&columns)));
             },
         );
     }

@@ -21,10 +21,12 @@ mod c {
         ) -> f64;
         pub(super) unsafe fn rival_bouc_wen_fitness(
             samples: usize,
-            t: *const f64,
             x: *const f64,
             v: *const f64,
             f: *const f64,
+            first: *const usize,
+            velocity: *const [f64; 3],
+            step: *const f64,
             p: *const [f64; LANES],
             out: *mut f64,
         );
@@ -58,24 +60,72 @@ pub fn sinh_fitness(recording: &Recording, p: &[f64; 5]) -> f64 {
 }
 
 /// Fitness of [`LANES`] candidates, one column each, rows `c0, kx, kw, rho, sigma, n, F0`; one step of
-/// RK4 a sample.
+/// RK4 an interval.
 #[allow(unsafe_code)]
-pub fn bouc_wen_fitness(recording: &Recording, p: &[[f64; LANES]; 7]) -> [f64; LANES] {
-    let ((x, v, f), t) = (series(recording), recording.time());
+pub fn bouc_wen_fitness(recording: &Recording, over: &Intervals, p: &[[f64; LANES]; 7]) -> [f64; LANES] {
+    let (x, v, f) = series(recording);
+    assert_eq!(over.first.len(), x.len() + 1);
+    assert_eq!((over.first[x.len()], over.velocity.len()), (over.step.len(), over.step.len()));
     let mut out = [0.0; LANES];
-    // SAFETY: the series of a recording have one length, and C reads and writes whole blocks.
+    // SAFETY: the series of a recording have one length, the places of intervals end with their number, and C
+    // reads and writes whole blocks.
     unsafe {
         c::rival_bouc_wen_fitness(
             x.len(),
-            t.as_ptr(),
             x.as_ptr(),
             v.as_ptr(),
             f.as_ptr(),
+            over.first.as_ptr(),
+            over.velocity.as_ptr(),
+            over.step.as_ptr(),
             p.as_ptr(),
             out.as_mut_ptr(),
         );
     }
     out
+}
+
+/// Times between samples, cut where the velocity turns.
+#[derive(Default)]
+pub struct Intervals {
+    first: Vec<usize>,
+    /// At the beginning, halfway, at the end.
+    velocity: Vec<[f64; 3]>,
+    step: Vec<f64>,
+}
+
+impl Intervals {
+    /// Of samples at even times: a cubic gives the velocity halfway, at the ends a parabola.
+    pub fn of(recording: &Recording) -> Self {
+        let (v, h) = (recording.velocity(), 1.0 / recording.sampling_rate());
+        let last = v.len() - 1;
+        let bend = |i: usize| {
+            let i = i.clamp(1, last - 1);
+            v[i - 1] - 2.0 * v[i] + v[i + 1]
+        };
+        let mut found = Self { first: vec![0], ..Self::default() };
+        for i in 0..last {
+            let middle = 0.5 * (v[i] + v[i + 1]) - (bend(i) + bend(i + 1)) / 16.0;
+            let curve = 4.0 * (middle - 0.5 * (v[i] + v[i + 1]));
+            let at = |s: f64| v[i] + s * (v[i + 1] - v[i] + curve * (1.0 - s));
+            let mut ends = vec![0.0, 1.0];
+            if v[i] * v[i + 1] < 0.0 {
+                let (mut low, mut high) = (0.0, 1.0);
+                for _ in 0..60 {
+                    let half = 0.5 * (low + high);
+                    if at(half) * v[i] > 0.0 { low = half } else { high = half }
+                }
+                ends.insert(1, low);
+            }
+            for part in ends.windows(2) {
+                found.velocity.push([at(part[0]), at(0.5 * (part[0] + part[1])), at(part[1])]);
+                found.step.push((part[1] - part[0]) * h);
+            }
+            found.first.push(found.step.len());
+        }
+        found.first.push(found.step.len());
+        found
+    }
 }
 
 fn series(recording: &Recording) -> (&[f64], &[f64], &[f64]) {

@@ -107,23 +107,28 @@ static inline double rate(double w, double v, double rho, double sigma, double n
 }
 
 /* Mean squared errors of the Bouc-Wen model for 16 candidates side by side, p[k][lane] with
-   k = c0, kx, kw, rho, sigma, n, F0; RK4 with one step a sample. */
-void rival_bouc_wen_fitness(size_t samples, const double *t, const double *x, const double *v, const double *f,
-                            const double p[7][LANES], double out[LANES])
+   k = c0, kx, kw, rho, sigma, n, F0. RK4 with one step an interval, of which those from first[i] to first[i + 1]
+   lie between samples i and i + 1; u has the velocity at their beginning, halfway and at their end. */
+void rival_bouc_wen_fitness(size_t samples, const double *x, const double *v, const double *f, const size_t *first,
+                            const double (*u)[3], const double *step, const double p[7][LANES],
+                            double out[LANES])
 {
     double w[LANES] = {0}, sum[LANES] = {0};
     for (size_t i = 0; i < samples; i++) {
-        const size_t next = i + 1 < samples ? i + 1 : i;
-        const double h = t[next] - t[i], v0 = v[i], v1 = v[next], half = 0.5 * h, middle = 0.5 * (v0 + v1);
         for (int l = 0; l < LANES; l++) {
-            const double e = f[i] - (p[0][l] * v0 + p[1][l] * x[i] + p[2][l] * w[l] + p[6][l]);
+            const double e = f[i] - (p[0][l] * v[i] + p[1][l] * x[i] + p[2][l] * w[l] + p[6][l]);
             sum[l] += e * e;
-            const double rho = p[3][l], sigma = p[4][l], n = p[5][l];
-            const double a = rate(w[l], v0, rho, sigma, n);
-            const double b = rate(w[l] + half * a, middle, rho, sigma, n);
-            const double c = rate(w[l] + half * b, middle, rho, sigma, n);
-            const double d = rate(w[l] + h * c, v1, rho, sigma, n);
-            w[l] += h / 6.0 * (a + 2.0 * (b + c) + d);
+        }
+        for (size_t j = first[i]; j < first[i + 1]; j++) {
+            const double h = step[j], half = 0.5 * h, begin = u[j][0], middle = u[j][1], end = u[j][2];
+            for (int l = 0; l < LANES; l++) {
+                const double rho = p[3][l], sigma = p[4][l], n = p[5][l];
+                const double a = rate(w[l], begin, rho, sigma, n);
+                const double b = rate(w[l] + half * a, middle, rho, sigma, n);
+                const double c = rate(w[l] + half * b, middle, rho, sigma, n);
+                const double d = rate(w[l] + h * c, end, rho, sigma, n);
+                w[l] += h / 6.0 * (a + 2.0 * (b + c) + d);
+            }
         }
     }
     for (int l = 0; l < LANES; l++)

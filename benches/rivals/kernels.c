@@ -68,9 +68,8 @@ static inline double rate(double w, double v, double rho, double sigma, double n
     return rho * (v - p * (sigma * (copysign(fabs(v), w) - v) + v));
 }
 
-static inline double rk4(double w, double v0, double v1, double h, double rho, double sigma, double n)
+static inline double rk4(double w, double v0, double vm, double v1, double h, double rho, double sigma, double n)
 {
-    double vm = 0.5 * (v0 + v1);
     double a = rate(w, v0, rho, sigma, n);
     double b = rate(w + 0.5 * h * a, vm, rho, sigma, n);
     double c = rate(w + 0.5 * h * b, vm, rho, sigma, n);
@@ -78,9 +77,15 @@ static inline double rk4(double w, double v0, double v1, double h, double rho, d
     return w + h / 6.0 * (a + 2.0 * (b + c) + d);
 }
 
+/* Intervals from first[i] to first[i + 1] lie between samples i and i + 1; velocity has three values each. */
+typedef struct {
+    const size_t *first;
+    const double *velocity, *step, *demand;
+} Intervals;
+
 /* LANES candidates side by side; column k of the candidates at p[k * LANES]. */
-static void block(size_t n, double dt, const double *restrict x, const double *restrict v,
-                  const double *restrict f, const double *restrict demand, const double *restrict stiffness,
+static void block(size_t n, const double *restrict x, const double *restrict v,
+                  const double *restrict f, const Intervals *restrict over, const double *restrict stiffness,
                   const double *restrict p, double *restrict out)
 {
     const double *c0 = p, *kx = p + LANES, *kw = p + 2 * LANES, *rho = p + 3 * LANES;
@@ -92,18 +97,23 @@ static void block(size_t n, double dt, const double *restrict x, const double *r
             double e = f[i] - f0[l] - c0[l] * v[i] - kx[l] * x[i] - kw[l] * w[l];
             sum[l] += e * e;
         }
-        if (i + 1 == n) break;
-        if (stiffest * demand[i] <= 1.0) {
-            for (int l = 0; l < LANES; l++) w[l] = rk4(w[l], v[i], v[i + 1], dt, rho[l], sigma[l], power_n[l]);
-            continue;
-        }
-        double most = ceil(stiffest * demand[i]);
-        for (int l = 0; l < LANES; l++) count[l] = fmax(ceil(stiffness[l] * demand[i]), 1.0);
-        for (double s = 0.0; s < most; s += 1.0) {
-            for (int l = 0; l < LANES; l++) {
-                double share = 1.0 / count[l], dv = (v[i + 1] - v[i]) * share, start = v[i] + dv * s;
-                double next = rk4(w[l], start, start + dv, dt * share, rho[l], sigma[l], power_n[l]);
-                w[l] = s < count[l] ? next : w[l];
+        for (size_t j = over->first[i]; j < over->first[i + 1]; j++) {
+            const double *u = over->velocity + 3 * j, demand = over->demand[j], dt = over->step[j];
+            if (stiffest * demand <= 1.0) {
+                for (int l = 0; l < LANES; l++)
+                    w[l] = rk4(w[l], u[0], u[1], u[2], dt, rho[l], sigma[l], power_n[l]);
+                continue;
+            }
+            double most = ceil(stiffest * demand), dv = u[2] - u[0], bend = 4.0 * (u[1] - 0.5 * (u[0] + u[2]));
+            for (int l = 0; l < LANES; l++) count[l] = fmax(ceil(stiffness[l] * demand), 1.0);
+            for (double s = 0.0; s < most; s += 1.0) {
+                for (int l = 0; l < LANES; l++) {
+                    double share = 1.0 / count[l], a = s * share, c = a + share, b = 0.5 * (a + c);
+                    double begin = u[0] + a * (dv + bend * (1.0 - a)), end = u[0] + c * (dv + bend * (1.0 - c));
+                    double half = u[0] + b * (dv + bend * (1.0 - b));
+                    double next = rk4(w[l], begin, half, end, dt * share, rho[l], sigma[l], power_n[l]);
+                    w[l] = s < count[l] ? next : w[l];
+                }
             }
         }
     }
@@ -112,18 +122,20 @@ static void block(size_t n, double dt, const double *restrict x, const double *r
 
 /* Mean squared error of the Bouc-Wen model for candidates [c0, kx, kw, rho, sigma, n, F0] by RK4, in
  * sub-steps of at most 1 / (stiffness * demand). Candidates are best sorted by their stiffness. */
-void bouc_wen_fitness(size_t n, double dt, const double *restrict x, const double *restrict v,
-                      const double *restrict f, const double *restrict demand, size_t count,
+void bouc_wen_fitness(size_t n, const double *restrict x, const double *restrict v, const double *restrict f,
+                      const size_t *restrict first, const double *restrict velocity,
+                      const double *restrict step, const double *restrict demand, size_t count,
                       const double *restrict rows, const double *restrict stiffness, double *restrict out)
 {
-    for (size_t first = 0; first < count; first += LANES) {
+    const Intervals over = {first, velocity, step, demand};
+    for (size_t begin = 0; begin < count; begin += LANES) {
         double p[7 * LANES], stiff[LANES], costs[LANES];
         for (size_t l = 0; l < LANES; l++) {
-            size_t c = first + l < count ? first + l : count - 1;
+            size_t c = begin + l < count ? begin + l : count - 1;
             for (int k = 0; k < 7; k++) p[k * LANES + l] = rows[7 * c + k];
             stiff[l] = stiffness[c];
         }
-        block(n, dt, x, v, f, demand, stiff, p, costs);
-        for (size_t l = 0; l < LANES && first + l < count; l++) out[first + l] = costs[l];
+        block(n, x, v, f, &over, stiff, p, costs);
+        for (size_t l = 0; l < LANES && begin + l < count; l++) out[begin + l] = costs[l];
     }
 }

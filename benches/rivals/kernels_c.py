@@ -9,11 +9,12 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
-from problems import RATE, Array, Case, Kernel, stiffness
+from problems import Array, Case, Kernel, stiffness
 
 FLAGS = ["-O3", "-march=native", "-ffast-math"]
-SIZE, REAL = ctypes.c_size_t, ctypes.c_double
+SIZE = ctypes.c_size_t
 POINTER = np.ctypeslib.ndpointer(np.float64, flags="C_CONTIGUOUS")
+PLACES = np.ctypeslib.ndpointer(np.uintp, flags="C_CONTIGUOUS")
 
 
 def compiler() -> list[str] | None:
@@ -32,7 +33,7 @@ def build(command: list[str]) -> ctypes.CDLL:
     series = [SIZE, *[POINTER] * 3]
     kernels.sinh_fitness.argtypes = [*series, SIZE, POINTER, POINTER]
     kernels.bouc_wen_fitness.argtypes = [
-        *[SIZE, REAL, *[POINTER] * 4],
+        *[SIZE, *[POINTER] * 3, PLACES, *[POINTER] * 3],
         *[SIZE, *[POINTER] * 3],
     ]
     for function in (kernels.sinh_fitness, kernels.bouc_wen_fitness):
@@ -59,7 +60,7 @@ def bouc_wen(kernels: ctypes.CDLL, case: Case) -> Kernel:
         order = np.argsort(stiff)
         out, sorted_out = np.empty(len(rows)), np.empty(len(rows))
         kernels.bouc_wen_fitness(
-            *(len(case.x), 1 / RATE, case.x, case.v, case.f, case.demand),
+            *(len(case.x), case.x, case.v, case.f, *case.intervals),
             *(len(rows), rows[order], stiff[order], sorted_out),
         )
         out[order] = sorted_out

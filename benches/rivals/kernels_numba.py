@@ -2,10 +2,11 @@
 
 import math
 from collections.abc import Callable
+from typing import Any
 
 import numba
 import numpy as np
-from problems import RATE, Array, Case, Kernel, stiffness
+from problems import Array, Case, Kernel, stiffness
 
 FAST = {False: "", True: ", fastmath"}
 
@@ -43,8 +44,9 @@ def _rate(w: float, v: float, rho: float, sigma: float, n: float) -> float:
 
 
 @numba.njit(inline="always")
-def _step(w: float, v0: float, v1: float, h: float, rho: float, sigma: float, n: float) -> float:
-    middle = 0.5 * (v0 + v1)
+def _step(
+    w: float, v0: float, middle: float, v1: float, h: float, rho: float, sigma: float, n: float
+) -> float:
     a = _rate(w, v0, rho, sigma, n)
     b = _rate(w + 0.5 * h * a, middle, rho, sigma, n)
     c = _rate(w + 0.5 * h * b, middle, rho, sigma, n)
@@ -52,7 +54,17 @@ def _step(w: float, v0: float, v1: float, h: float, rho: float, sigma: float, n:
     return w + h / 6 * (a + 2 * (b + c) + d)
 
 
-def _bouc_wen(dt: float, x: Array, v: Array, f: Array, demand: Array, rows: Array, stiff: Array) -> Array:
+def _bouc_wen(
+    x: Array,
+    v: Array,
+    f: Array,
+    first: Any,
+    velocity: Array,
+    step: Array,
+    demand: Array,
+    rows: Array,
+    stiff: Array,
+) -> Array:
     out = np.empty(len(rows))
     for c in range(len(rows)):
         c0, kx, kw, rho, sigma, n, f0 = rows[c]
@@ -60,12 +72,19 @@ def _bouc_wen(dt: float, x: Array, v: Array, f: Array, demand: Array, rows: Arra
         for i in range(len(x)):
             error = f[i] - (c0 * v[i] + kx * x[i] + kw * w + f0)
             total += error * error
-            if i + 1 < len(x):
-                count = max(math.ceil(stiff[c] * demand[i]), 1)
-                h, dv = dt / count, (v[i + 1] - v[i]) / count
+            for j in range(first[i], first[i + 1]):
+                start, dv = velocity[j, 0], velocity[j, 2] - velocity[j, 0]
+                count = max(math.ceil(stiff[c] * demand[j]), 1)
+                if count == 1:
+                    w = _step(w, start, velocity[j, 1], velocity[j, 2], step[j], rho, sigma, n)
+                    continue
+                bend = 4 * velocity[j, 1] - 2 * (start + velocity[j, 2])
                 for s in range(count):
-                    start = v[i] + dv * s
-                    w = _step(w, start, start + dv, h, rho, sigma, n)
+                    begin, half, end = s / count, (s + 0.5) / count, (s + 1) / count
+                    at_begin = start + begin * (dv + bend * (1 - begin))
+                    at_half = start + half * (dv + bend * (1 - half))
+                    at_end = start + end * (dv + bend * (1 - end))
+                    w = _step(w, at_begin, at_half, at_end, step[j] / count, rho, sigma, n)
         out[c] = total / len(x)
     return out
 
@@ -86,6 +105,7 @@ def bouc_wen(case: Case) -> dict[str, Kernel]:
 
     def form(fast: bool) -> Kernel:
         kernel = numba.njit(fastmath=fast)(_bouc_wen)
-        return lambda rows: kernel(1 / RATE, case.x, case.v, case.f, case.demand, rows, stiffness(rows))
+        series = (case.x, case.v, case.f, *case.intervals)
+        return lambda rows: kernel(*series, rows, stiffness(rows))
 
     return {"scalar" + FAST[fast]: form(fast) for fast in FAST}

@@ -3,6 +3,8 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
+from typing import NamedTuple
 
 import mre_core
 import numpy as np
@@ -31,6 +33,17 @@ def stiffness(rows: Array) -> Array:
     return np.exp2(np.ceil(np.log2(rho * n * np.maximum(2 * sigma - 1, 1))))
 
 
+class Intervals(NamedTuple):
+    """Those from first[i] to first[i + 1] lie between samples i and i + 1."""
+
+    first: NDArray[np.uintp]
+    velocity: Array
+    """At the beginning, halfway, at the end; shape (m, 3)."""
+    step: Array
+    demand: Array
+    """Sub-steps per unit of stiffness."""
+
+
 @dataclass(frozen=True)
 class Case:
     """A problem of mre_core with its recording as plain arrays: mm, mm/s, N."""
@@ -49,9 +62,22 @@ class Case:
         return len(self.problem.names)
 
     @cached_property
-    def demand(self) -> Array:
-        """Sub-steps to the next sample per unit of stiffness."""
-        return np.maximum(abs(self.v[:-1]), abs(self.v[1:])) / RATE / STEP
+    def intervals(self) -> "Intervals":
+        """Times between samples, cut where the velocity turns."""
+        begin, end = self.v[:-1], self.v[1:]
+        around = np.pad(np.diff(self.v, 2), 1, mode="edge")
+        middle = 0.5 * (begin + end) - (around[:-1] + around[1:]) / 16  # cubic, at the ends quadratic
+        first, velocity, step = [0], [], []
+        for known in zip(begin, middle, end, strict=True):
+            parabola = np.polynomial.Polynomial.fit((0, 0.5, 1), known, 2, domain=(0, 1), window=(0, 1))
+            cuts = [r.real for r in parabola.roots() if 0 < r.real < 1] if known[0] * known[2] < 0 else []
+            for part in pairwise((0, *cuts, 1)):
+                velocity.append(parabola(np.array((part[0], sum(part) / 2, part[1]))))
+                step.append((part[1] - part[0]) / RATE)
+            first.append(len(step))
+        speeds, steps = np.array(velocity), np.array(step)
+        demand = np.maximum(abs(speeds[:, 0]), abs(speeds[:, 2])) * steps / STEP
+        return Intervals(np.array([*first, len(step)], dtype=np.uintp), speeds, steps, demand)
 
     @cached_property
     def _scale(self) -> tuple[Array, Array, NDArray[np.intp]]:

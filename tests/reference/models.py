@@ -3,10 +3,13 @@
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import Chebyshev
 from numpy.typing import NDArray
+from scipy.optimize import brentq  # type: ignore[import-untyped]
 
 Array = NDArray[np.float64]
 Levels = Sequence[tuple[float | None, Sequence[float]]]
@@ -84,36 +87,89 @@ def sinh(p: Sequence[float], motion: Motion) -> Array:
     )
 
 
+class Piece(NamedTuple):
+    """A time between two samples, or a part of it, in which the velocity keeps its sign."""
+
+    sample: int
+    """The sample before."""
+    velocity: Callable[[float], float]
+    """By the share of the time."""
+    duration: float
+
+
+def pieces(motion: Motion) -> list[Piece]:
+    """Between two samples the velocity is a parabola; where it turns, one piece ends and another begins."""
+    found = []
+    for i, half in enumerate(halfway(motion)):
+        v0, v1 = float(motion.velocity[i]), float(motion.velocity[i + 1])
+        parabola = np.polynomial.Polynomial([v0, 4 * half - 3 * v0 - v1, 2 * v0 + 2 * v1 - 4 * half])
+        dt = float(motion.time[i + 1] - motion.time[i])
+        turn = float(brentq(parabola, 0.0, 1.0, xtol=1e-16, rtol=1e-15)) if v0 * v1 < 0.0 else 0.0
+        ends = [0.0, turn, 1.0] if 0.0 < turn < 1.0 else [0.0, 1.0]
+        for begin, end in pairwise(ends):
+            known = {0.0: v0, turn: 0.0, 0.5: half, 1.0: v1} if turn else {0.0: v0, 0.5: half, 1.0: v1}
+
+            def velocity(
+                share: float,
+                begin: float = begin,
+                end: float = end,
+                parabola: Callable[[float], float] = parabola,
+                known: dict[float, float] = known,
+            ) -> float:
+                place = begin + share * (end - begin)
+                return known[place] if place in known else float(parabola(place))
+
+            found.append(Piece(i, velocity, dt * (end - begin)))
+    return found
+
+
 def substeps(rho: float, sigma: float, n: float, motion: Motion) -> list[int]:
-    """Equal sub-steps of every interval between two samples."""
+    """Equal sub-steps of every piece."""
     rate = rho * n * max(1.0, 2.0 * sigma - 1.0)
     # Rounded up to a power of two; what is zero or beyond all numbers stays so.
     stiffness = 2.0 ** math.ceil(math.log2(rate)) if 0.0 < rate < 1e300 else rate
     counts = []
-    for i in range(len(motion) - 1):
-        fastest = max(abs(motion.velocity[i]), abs(motion.velocity[i + 1]))
-        dt = motion.time[i + 1] - motion.time[i]
-        counts.append(max(1, math.ceil(stiffness * fastest * dt / 0.5)))
+    for piece in pieces(motion):
+        fastest = max(abs(piece.velocity(0.0)), abs(piece.velocity(1.0)))
+        counts.append(max(1, math.ceil(stiffness * fastest * piece.duration / 0.5)))
     return counts
 
 
+def halfway(motion: Motion) -> list[float]:
+    """Velocity halfway between samples: the mean of the parabolas through three, where there are two."""
+    t, v = motion.time, motion.velocity
+    found = []
+    for i in range(len(motion) - 1):
+        middle, line = 0.5 * (t[i] + t[i + 1]), 0.5 * (v[i] + v[i + 1])
+        values = []
+        for first in (i - 1, i):
+            if first >= 0 and first + 2 < len(motion):
+                at, three = t[first : first + 3], v[first : first + 3]
+                weights = [
+                    math.prod((middle - at[k]) / (at[j] - at[k]) for k in range(3) if k != j)
+                    for j in range(3)
+                ]
+                values.append(float(np.dot(weights, three)))
+        most = 0.25 * max(abs(v[i]), abs(v[i + 1]))
+        away = float(np.mean(values)) - line if values else 0.0
+        found.append(float(line + min(max(away, -most), most)))
+    return found
+
+
 def runge_kutta(slope: Callable[[float, float], float], counts: Sequence[int], motion: Motion) -> Array:
-    """State from rest at every sample; `slope(velocity, state)`, velocity linear between the samples."""
+    """State from rest at every sample; `slope(velocity, state)`, and the sub-steps of every piece."""
     w = 0.0
-    states = [w]
-    for i, count in enumerate(counts):
-        v0, v1 = float(motion.velocity[i]), float(motion.velocity[i + 1])
-        h = float(motion.time[i + 1] - motion.time[i]) / count
+    states = [0.0] * len(motion)
+    for piece, count in zip(pieces(motion), counts, strict=True):
+        h = piece.duration / count
         for j in range(count):
-            begin = v0 + (v1 - v0) * j / count
-            middle = v0 + (v1 - v0) * (j + 0.5) / count
-            end = v0 + (v1 - v0) * (j + 1) / count
+            begin, middle, end = (piece.velocity((j + part) / count) for part in (0.0, 0.5, 1.0))
             k1 = slope(begin, w)
             k2 = slope(middle, w + 0.5 * h * k1)
             k3 = slope(middle, w + 0.5 * h * k2)
             k4 = slope(end, w + h * k3)
             w += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
-        states.append(w)
+        states[piece.sample + 1] = w
     return np.array(states)
 
 

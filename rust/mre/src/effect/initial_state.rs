@@ -18,11 +18,14 @@ pub struct InitialState;
 
 /// True where a recording starts in motion or away from its middle.
 pub fn starts_in_motion(recording: &Recording) -> bool {
+    in_motion(recording.displacement(), recording.velocity())
+}
+
+fn in_motion(x: &[f64], v: &[f64]) -> bool {
     let share = |series: &[f64], first: f64| {
         let far = series.iter().fold(0.0_f64, |far, v| far.max(v.abs()));
         first.abs() > REST * far
     };
-    let (x, v) = (recording.displacement(), recording.velocity());
     share(x, x[0]) || share(v, v[0])
 }
 
@@ -51,6 +54,9 @@ impl Effect for InitialState {
     }
 
     fn columns(&self, scene: &Scene, _: &[f64]) -> Vec<Vec<f64>> {
+        if !in_motion(scene.displacement, scene.velocity) {
+            return vec![vec![0.0; scene.len()]; DECAYS]; // its states are those of rest
+        }
         let start = scene.time[0];
         let times = orders(2.0 * scene.sizes.step, scene.sizes.duration / 3.0, DECAYS);
         times.iter().map(|d| scene.time.iter().map(|t| (-(t - start) / d).exp()).collect()).collect()

@@ -11,7 +11,8 @@ use super::certified::{Curve, Kind};
 use crate::fitness::Problem;
 use crate::kernel::LANES;
 use crate::kernel::bouc_wen_gram::products;
-use crate::kernel::hysteretic::{Plan, stiffness};
+use crate::kernel::hysteretic::stiffness;
+use crate::kernel::intervals::Plan;
 use crate::law::Law;
 
 /// A problem seen as a function of its shapes alone, on the unit box.

@@ -3,7 +3,8 @@
 
 use super::dispatch::{self, for_every_isa};
 use super::elementary::fma;
-use super::hysteretic::{Plan, stiffness};
+use super::hysteretic::stiffness;
+use super::intervals::Plan;
 use super::lanes::{LANES, Lanes};
 use crate::recording::Recording;
 
@@ -44,9 +45,7 @@ fn simulate_generic<const FUSED: bool>(recording: &Recording, plan: &Plan, lanes
                 sums[4][l] = fma::<FUSED>(w[l], w[l], sums[4][l]);
             }
         }
-        if i + 1 < velocity.len() {
-            lanes.advance::<FUSED>(&mut w, (velocity[i], velocity[i + 1]), plan.step[i], plan.demand[i]);
-        }
+        lanes.advance::<FUSED>(&mut w, plan.after(i));
     }
     sums
 }
@@ -63,23 +62,17 @@ pub(crate) fn traces(
     let lanes =
         Lanes::with_stiffness(plan, &shapes, std::array::from_fn(|l| stiffness(shapes[l - l % group])));
     let mut out = vec![[0.0; LANES]; recording.len()];
-    trace(dispatch::best(), recording, plan, &lanes, &mut out);
+    trace(dispatch::best(), plan, &lanes, &mut out);
     out
 }
 
-for_every_isa!(trace, trace_generic, (recording: &Recording, plan: &Plan, lanes: &Lanes, out: &mut [[f64; LANES]]) -> ());
+for_every_isa!(trace, trace_generic, (plan: &Plan, lanes: &Lanes, out: &mut [[f64; LANES]]) -> ());
 
 #[inline(always)]
-fn trace_generic<const FUSED: bool>(
-    recording: &Recording,
-    plan: &Plan,
-    lanes: &Lanes,
-    out: &mut [[f64; LANES]],
-) {
-    let velocity = recording.velocity();
+fn trace_generic<const FUSED: bool>(plan: &Plan, lanes: &Lanes, out: &mut [[f64; LANES]]) {
     let mut w = [0.0; LANES];
-    for i in 0..plan.step.len() {
-        lanes.advance::<FUSED>(&mut w, (velocity[i], velocity[i + 1]), plan.step[i], plan.demand[i]);
+    for i in 0..plan.len() {
+        lanes.advance::<FUSED>(&mut w, plan.after(i));
         out[i + 1] = w;
     }
 }

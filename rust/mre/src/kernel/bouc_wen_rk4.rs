@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use super::dispatch::{self, Isa, for_every_isa};
 use super::elementary::fma;
-use super::hysteretic::{Plan, stiffness};
+use super::hysteretic::stiffness;
+use super::intervals::Plan;
 use super::lanes::{LANES, Lanes};
 use crate::recording::Recording;
 
@@ -70,11 +71,7 @@ fn simulate_generic<const FUSED: bool>(on: &BoucWenRk4, block: &Block) -> [f64; 
                 sums[l] = fma::<FUSED>(r, r, sums[l]);
             }
         }
-        if i + 1 == n {
-            break;
-        }
-        let (h, demand) = (on.plan.step[i], on.plan.demand[i]);
-        block.lanes.advance::<FUSED>(&mut w, (v0, velocity[i + 1]), h, demand);
+        block.lanes.advance::<FUSED>(&mut w, on.plan.after(i));
     }
     sums
 }

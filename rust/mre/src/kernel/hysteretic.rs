@@ -1,51 +1,7 @@
 //! One step of the hysteretic variable, and its trace over a recording.
 
 use super::elementary::{fma, power_lane};
-use crate::physics::BOUC_WEN_STEP;
-use crate::recording::Recording;
-
-/// More sub-steps than this between two samples: the samples are too far apart for the candidate.
-const MOST_SUBSTEPS: f64 = 1000.0;
-
-/// What the integrator needs of a recording, computed once.
-#[derive(Debug, Clone)]
-pub(crate) struct Plan {
-    /// Time to the next sample, s.
-    pub(crate) step: Vec<f64>,
-    /// Sub-steps to the next sample per unit of stiffness: larger speed times step, over the rule's limit.
-    pub(crate) demand: Vec<f64>,
-    /// The largest of them.
-    pub(crate) largest: f64,
-}
-
-impl Plan {
-    pub(crate) fn new(recording: &Recording) -> Self {
-        Self::of(recording.time(), recording.velocity())
-    }
-
-    pub(super) fn of(time: &[f64], velocity: &[f64]) -> Self {
-        let step: Vec<f64> = time.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        let demand: Vec<f64> = velocity
-            .windows(2)
-            .zip(&step)
-            .map(|(pair, step)| pair[0].abs().max(pair[1].abs()) * step / BOUC_WEN_STEP)
-            .collect();
-        let largest = demand.iter().copied().fold(0.0, f64::max);
-        Self { step, demand, largest }
-    }
-
-    /// A plan with a quarter of the sub-steps: for a first look. RK4 stays stable.
-    pub(crate) fn rough(&self) -> Self {
-        let demand = self.demand.iter().map(|demand| 0.25 * demand).collect();
-        Self { step: self.step.clone(), demand, largest: 0.25 * self.largest }
-    }
-
-    /// True where a candidate of this stiffness would need too many sub-steps.
-    pub(super) fn too_coarse(&self, stiffness: f64) -> bool {
-        let substeps = stiffness * self.largest;
-        substeps.is_nan() || substeps > MOST_SUBSTEPS
-    }
-}
+use super::intervals::Plan;
 
 /// Rate at which the hysteretic variable can change with itself, per mm, rounded up to a power of two.
 ///
@@ -118,22 +74,21 @@ fn rate<const FUSED: bool, P: Power, const N: usize>(
     out
 }
 
-/// RK4 over `h` with a velocity that goes linearly from `v0` to `v1`.
+/// RK4 over `h` with velocities at its beginning, halfway and at its end.
 ///
 /// Stage by stage for all lanes: one lane after the other, the processor would wait for every result.
 #[inline(always)]
 pub(super) fn rk4<const FUSED: bool, P: Power, const N: usize>(
     w: &[f64; N],
-    (v0, v1): (&[f64; N], &[f64; N]),
+    [begin, middle, end]: &[[f64; N]; 3],
     h: &[f64; N],
     shapes: &Shapes<N>,
 ) -> [f64; N] {
-    let middle = std::array::from_fn(|l| 0.5 * (v0[l] + v1[l]));
     let half = h.map(|h| 0.5 * h);
-    let a = rate::<FUSED, P, N>(w, (&[0.0; N], w), v0, shapes);
-    let b = rate::<FUSED, P, N>(w, (&half, &a), &middle, shapes);
-    let c = rate::<FUSED, P, N>(w, (&half, &b), &middle, shapes);
-    let d = rate::<FUSED, P, N>(w, (h, &c), v1, shapes);
+    let a = rate::<FUSED, P, N>(w, (&[0.0; N], w), begin, shapes);
+    let b = rate::<FUSED, P, N>(w, (&half, &a), middle, shapes);
+    let c = rate::<FUSED, P, N>(w, (&half, &b), middle, shapes);
+    let d = rate::<FUSED, P, N>(w, (h, &c), end, shapes);
     let mut next = [0.0; N];
     for l in 0..N {
         next[l] = fma::<FUSED>(h[l] / 6.0, a[l] + 2.0 * (b[l] + c[l]) + d[l], w[l]);
@@ -153,13 +108,13 @@ pub(crate) fn trace(time: &[f64], velocity: &[f64], shape: [f64; 3], out: &mut [
     let shapes = Shapes { rho: [shape[0]], sigma: [shape[1]], n: [shape[2]] };
     let mut w = [0.0];
     out[0] = w[0];
-    for i in 0..plan.step.len() {
-        let (v0, v1) = (velocity[i], velocity[i + 1]);
-        let count = (stiffness * plan.demand[i]).ceil().max(1.0);
-        let (h, dv) = (plan.step[i] / count, (v1 - v0) / count);
-        for s in 0..count as usize {
-            let start = v0 + dv * s as f64;
-            w = rk4::<false, Any, 1>(&w, (&[start], &[start + dv]), &[h], &shapes);
+    for i in 0..plan.len() {
+        for interval in plan.after(i) {
+            let count = (stiffness * interval.demand).ceil().max(1.0);
+            for s in 0..count as usize {
+                let velocity = interval.part(s as f64, count).map(|v| [v]);
+                w = rk4::<false, Any, 1>(&w, &velocity, &[interval.step / count], &shapes);
+            }
         }
         out[i + 1] = w[0];
     }

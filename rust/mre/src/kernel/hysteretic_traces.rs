@@ -3,7 +3,8 @@
 use rayon::prelude::*;
 
 use super::dispatch::{self, Isa, for_every_isa};
-use super::hysteretic::{Any, Plan, Shapes, rk4, stiffness};
+use super::hysteretic::{Any, Shapes, rk4, stiffness};
+use super::intervals::{Interval, Plan};
 
 /// Most traces side by side.
 const WIDE: usize = 16;
@@ -50,20 +51,25 @@ fn traces_on(isa: Isa, of: &[Motion]) -> Vec<Vec<f64>> {
 }
 
 /// One trace to be made.
-struct Lane<'a> {
-    velocity: &'a [f64],
+struct Lane {
     shape: [f64; 3],
     plan: Plan,
     stiffness: f64,
     hopeless: bool,
 }
 
-impl<'a> Lane<'a> {
-    fn new(motion: &Motion<'a>) -> Self {
+impl Lane {
+    fn new(motion: &Motion) -> Self {
         let plan = Plan::of(motion.time, motion.velocity);
         let stiffness = stiffness(motion.shape);
         let hopeless = plan.too_coarse(stiffness);
-        Self { velocity: motion.velocity, shape: motion.shape, plan, stiffness, hopeless }
+        Self { shape: motion.shape, plan, stiffness, hopeless }
+    }
+
+    /// Intervals from a sample to the next; none where all is done.
+    #[inline(always)]
+    fn after(&self, sample: usize) -> &[Interval] {
+        if self.hopeless { &[] } else { self.plan.after(sample) }
     }
 }
 
@@ -84,35 +90,29 @@ fn simulate_narrow<const FUSED: bool>(lanes: &[Lane]) -> Vec<Vec<f64>> {
 fn simulate<const FUSED: bool, const N: usize>(lanes: &[Lane]) -> Vec<Vec<f64>> {
     let part = |k: usize| std::array::from_fn(|l| lanes.get(l).map_or(1.0, |lane| lane.shape[k]));
     let shapes = Shapes::<N> { rho: part(0), sigma: part(1), n: part(2) };
-    let longest = lanes.iter().map(|lane| lane.velocity.len()).max().unwrap_or(0);
-    let mut out: Vec<Vec<f64>> = lanes.iter().map(|lane| vec![0.0; lane.velocity.len()]).collect();
+    let longest = lanes.iter().map(|lane| lane.plan.len()).max().unwrap_or(0);
+    let mut out: Vec<Vec<f64>> = lanes.iter().map(|lane| vec![0.0; lane.plan.len() + 1]).collect();
     let mut w = [0.0; N];
-    let (mut v0, mut v1, mut h, mut count) = ([0.0; N], [0.0; N], [0.0; N], [1.0; N]);
-    for i in 0..longest.saturating_sub(1) {
-        let mut most: f64 = 1.0;
-        for (l, lane) in lanes.iter().enumerate() {
-            if i + 1 < lane.velocity.len() && !lane.hopeless {
-                count[l] = (lane.stiffness * lane.plan.demand[i]).ceil().max(1.0);
-                (v0[l], v1[l], h[l]) = (lane.velocity[i], lane.velocity[i + 1], lane.plan.step[i]);
+    for i in 0..longest {
+        // One that is done, or has nothing after its turn, stays where it is.
+        let after = |l: usize, k: usize| lanes.get(l).and_then(|lane| lane.after(i).get(k)).copied();
+        for k in 0..lanes.iter().map(|lane| lane.after(i).len()).max().unwrap_or(0) {
+            let over: [Interval; N] = std::array::from_fn(|l| after(l, k).unwrap_or(Interval::REST));
+            let mut count = [1.0; N];
+            let mut most: f64 = 1.0;
+            for (l, lane) in lanes.iter().enumerate() {
+                count[l] = (lane.stiffness * over[l].demand).ceil().max(1.0);
                 most = most.max(count[l]);
-            } else {
-                (h[l], count[l]) = (0.0, 1.0); // done: it stays where it is
             }
-        }
-        if most <= 1.0 {
-            w = rk4::<FUSED, Any, N>(&w, (&v0, &v1), &h, &shapes);
-        } else {
             for s in 0..most as usize {
                 let done = s as f64;
-                let (mut start, mut end, mut step) = ([0.0; N], [0.0; N], [0.0; N]);
+                let (mut velocity, mut step) = ([[0.0; N]; 3], [0.0; N]);
                 for l in 0..N {
-                    let dv = (v1[l] - v0[l]) / count[l];
-                    start[l] = v0[l] + dv * done;
-                    // To the bit as in one step, where other lanes of the block need more.
-                    end[l] = if done + 1.0 < count[l] { start[l] + dv } else { v1[l] };
-                    step[l] = if done < count[l] { h[l] / count[l] } else { 0.0 };
+                    let [begin, middle, end] = over[l].part(done, count[l]);
+                    (velocity[0][l], velocity[1][l], velocity[2][l]) = (begin, middle, end);
+                    step[l] = if done < count[l] { over[l].step / count[l] } else { 0.0 };
                 }
-                w = rk4::<FUSED, Any, N>(&w, (&start, &end), &step, &shapes);
+                w = rk4::<FUSED, Any, N>(&w, &velocity, &step, &shapes);
             }
         }
         for (l, trace) in out.iter_mut().enumerate() {

@@ -1,6 +1,7 @@
 //! Hysteretic variables of several candidates side by side, one SIMD lane each.
 
-use super::hysteretic::{Any, One, Plan, Power, Shapes, Two, rk4, stiffness};
+use super::hysteretic::{Any, One, Power, Shapes, Two, rk4, stiffness};
+use super::intervals::{Interval, Plan};
 
 /// Candidates simulated side by side.
 pub(crate) const LANES: usize = 16;
@@ -43,63 +44,46 @@ impl Lanes {
         Self { shapes: Shapes { rho, sigma, n }, common, stiffness, stiffest, hopeless }
     }
 
-    /// From one sample to the next, over `h` with a velocity that goes linearly from `v0` to `v1`.
+    /// From one sample to the next.
     #[inline(always)]
-    pub(super) fn advance<const FUSED: bool>(
-        &self,
-        w: &mut [f64; LANES],
-        velocity: (f64, f64),
-        h: f64,
-        demand: f64,
-    ) {
-        match self.common {
-            Some(1.0) => self.advance_by::<FUSED, One>(w, velocity, h, demand),
-            Some(2.0) => self.advance_by::<FUSED, Two>(w, velocity, h, demand),
-            _ => self.advance_by::<FUSED, Any>(w, velocity, h, demand),
+    pub(super) fn advance<const FUSED: bool>(&self, w: &mut [f64; LANES], over: &[Interval]) {
+        for interval in over {
+            match self.common {
+                Some(1.0) => self.advance_by::<FUSED, One>(w, interval),
+                Some(2.0) => self.advance_by::<FUSED, Two>(w, interval),
+                _ => self.advance_by::<FUSED, Any>(w, interval),
+            }
         }
     }
 
     #[inline(always)]
-    fn advance_by<const FUSED: bool, P: Power>(
-        &self,
-        w: &mut [f64; LANES],
-        (v0, v1): (f64, f64),
-        h: f64,
-        demand: f64,
-    ) {
-        if self.stiffest * demand <= 1.0 {
-            *w = rk4::<FUSED, P, LANES>(w, (&[v0; LANES], &[v1; LANES]), &[h; LANES], &self.shapes);
+    fn advance_by<const FUSED: bool, P: Power>(&self, w: &mut [f64; LANES], over: &Interval) {
+        if self.stiffest * over.demand <= 1.0 {
+            let velocity = over.part(0.0, 1.0).map(|v| [v; LANES]);
+            *w = rk4::<FUSED, P, LANES>(w, &velocity, &[over.step; LANES], &self.shapes);
         } else {
-            self.advance_in_substeps::<FUSED, P>(w, (v0, v1), h, demand);
+            self.advance_in_substeps::<FUSED, P>(w, over);
         }
     }
 
     /// Every lane takes the number of sub-steps it needs by itself; those that are done wait.
     #[inline(always)]
-    fn advance_in_substeps<const FUSED: bool, P: Power>(
-        &self,
-        w: &mut [f64; LANES],
-        (v0, v1): (f64, f64),
-        h: f64,
-        demand: f64,
-    ) {
+    fn advance_in_substeps<const FUSED: bool, P: Power>(&self, w: &mut [f64; LANES], over: &Interval) {
         let mut count = [1.0; LANES];
         let mut most: f64 = 1.0;
         for l in 0..LANES {
-            count[l] = (self.stiffness[l] * demand).ceil().max(1.0);
+            count[l] = (self.stiffness[l] * over.demand).ceil().max(1.0);
             most = most.max(count[l]);
         }
+        let step = count.map(|count| over.step / count);
         for s in 0..most as usize {
             let done = s as f64;
-            let (mut start, mut end, mut step) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+            let mut velocity = [[0.0; LANES]; 3];
             for l in 0..LANES {
-                let dv = (v1 - v0) / count[l];
-                start[l] = v0 + dv * done;
-                // One that needs none ends at the sample to the bit, as it does beside others like it.
-                end[l] = if count[l] > 1.0 { start[l] + dv } else { v1 };
-                step[l] = h / count[l];
+                let [begin, middle, end] = over.part(done, count[l]);
+                (velocity[0][l], velocity[1][l], velocity[2][l]) = (begin, middle, end);
             }
-            let next = rk4::<FUSED, P, LANES>(w, (&start, &end), &step, &self.shapes);
+            let next = rk4::<FUSED, P, LANES>(w, &velocity, &step, &self.shapes);
             for l in 0..LANES {
                 w[l] = if done < count[l] { next[l] } else { w[l] };
             }

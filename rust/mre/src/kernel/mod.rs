@@ -16,6 +16,7 @@ mod example;
 pub(crate) mod filter;
 pub(crate) mod hysteretic;
 pub(crate) mod hysteretic_traces;
+pub(crate) mod intervals;
 mod lanes;
 pub(crate) mod relaxation;
 mod sinh;
