@@ -61,6 +61,9 @@ pub fn sinh_fitness(recording: &Recording, p: &[f64; 5]) -> f64 {
 
 /// Fitness of [`LANES`] candidates, one column each, rows `c0, kx, kw, rho, sigma, n, F0`; one step of
 /// RK4 an interval.
+///
+/// # Panics
+/// The intervals are those of another recording, or it has no force.
 #[allow(unsafe_code)]
 pub fn bouc_wen_fitness(recording: &Recording, over: &Intervals, p: &[[f64; LANES]; 7]) -> [f64; LANES] {
     let (x, v, f) = series(recording);

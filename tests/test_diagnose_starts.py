@@ -4,6 +4,7 @@ import mre_core
 import numpy as np
 import pytest
 from mre_core import Recording
+from scipy.signal import lfilter  # type: ignore[import-untyped]
 
 K_M, TAU = 1.4, 0.065
 NOISE = 0.27
@@ -53,3 +54,28 @@ def test_parameters_of_the_base_have_intervals(found: mre_core.Diagnosis) -> Non
     assert low < level.parameters["k0"] < high
     assert low < 20 < high
     assert high - low < 1.0
+
+
+@pytest.mark.parametrize("phase", [0.0, 1.0])
+def test_only_recordings_that_start_in_motion_have_unknown_states(phase: float) -> None:
+    """One of four does, under a noise with a long memory, which a decay from the start resembles."""
+    recordings, noise = [], []
+    for i, start in enumerate((0.0, 0.0, phase, 0.0)):
+        time = np.arange(4000) / 1000.0
+        w = 2 * np.pi * (1.0 + i)
+        rise = np.where(start == 0.0, 1 - np.exp(-((4 * time) ** 3)), 1.0)
+        x = 2.0 * rise * np.sin(w * time + start)
+        v = np.gradient(x, time, edge_order=2)
+        white = np.random.default_rng(i).normal(size=(2, 8000))
+        slow = lfilter([np.sqrt(1 - 0.99**2)], [1, -0.99], white[0])[4000:]
+        noise.append(0.2 * (slow + white[1, 4000:]))
+        force = 0.3 * v + 20 * x + noise[-1]
+        recordings.append(Recording(time, x, force, velocity=v, name=f"r{i}"))
+    found = mre_core.diagnose(recordings, "kelvin_voigt", seed=1)
+    rms = float(np.sqrt(np.mean(np.square(noise))))
+    assert found.verdict == "adequate"
+    for said in (found.fit.noise_rms, found.fit.train_rms_after, found.fit.held_out_rms_after):
+        assert said == pytest.approx(rms, rel=0.15)
+    for history, own in zip(found.histories, noise, strict=True):
+        left = np.asarray(history.measured) - np.asarray(history.final)
+        assert np.sqrt(np.mean(left**2)) == pytest.approx(np.sqrt(np.mean(own**2)), rel=0.25)
