@@ -3,9 +3,10 @@
 import mre_core
 import numpy as np
 import pytest
+from missing import NOISE, campaign, with_series
 from mre_core import Diagnosis, Effect, Level, Model, Recording, _core
 from mre_core.concealed import make_campaign
-from rig import BOUC_WEN, motion
+from rig import BOUC_WEN, force_of, motion
 from test_effects import SIZES
 
 DEGRADED = {"s": 0.3}
@@ -71,3 +72,17 @@ def test_both_of_two_are_named(effects: list[str], base: str, seed: int) -> None
 def test_stribeck_is_told_from_coulomb_where_the_velocity_is_derived() -> None:
     found = diagnosed(["stribeck_friction"], "kelvin_voigt", 5, velocity="derived")
     assert [e.id for e in found.effects] == ["stribeck_friction"]
+
+
+def test_a_faint_hum_beside_an_effect_is_named() -> None:
+    """It lowers no rms by much, and goes on whatever moves: it patches the form of nothing."""
+    humming = []
+    for i, r in enumerate(campaign()):
+        hum = 0.2 * NOISE * np.sqrt(2) * np.sin(2 * np.pi * 50 * r.time + i)
+        humming.append(with_series(r, force=force_of(r) + hum))
+    found = mre_core.diagnose(humming, "kelvin_voigt", seed=1)
+    assert found.verdict == "missing_physics"
+    assert {e.id: e.form for e in found.effects}["mains_interference"] == "exact"
+    plain = mre_core.diagnose(campaign(), "kelvin_voigt", seed=1)
+    others = [(e.id, e.form) for e in found.effects if e.id != "mains_interference"]
+    assert others == [(e.id, e.form) for e in plain.effects]

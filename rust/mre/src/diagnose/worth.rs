@@ -74,7 +74,8 @@ impl<'a> Search<'_, 'a> {
         tried.into_iter().map(|(_, c)| c).collect()
     }
 
-    /// The same with its best law, if it also helps on data that took no part.
+    /// The same with its best law, if it also helps on data that took no part: by much, where it could patch the
+    /// form of the others.
     pub(super) fn worth_adding(
         &self,
         here: &Named<'a>,
@@ -87,7 +88,8 @@ impl<'a> Search<'_, 'a> {
         let beyond = |rms: f64| rms * rms - noise * noise;
         let whole = beyond(rest - held_out) < NOTHING * beyond(rest);
         let of_first = if whole { 0.0 } else { LEAST_OF_FIRST * by_first };
-        let least = (LEAST_OF_NOISE * noise).max(of_first).max(of_rest);
+        let follows = best.assembly.effects().last().is_some_and(|e| e.follows_the_motion());
+        let least = if follows { (LEAST_OF_NOISE * noise).max(of_first).max(of_rest) } else { 0.0 };
         (held_out >= least).then_some(best)
     }
 

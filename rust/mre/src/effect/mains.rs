@@ -54,6 +54,10 @@ impl Effect for Mains {
         true
     }
 
+    fn follows_the_motion(&self) -> bool {
+        false
+    }
+
     fn applies(&self, sizes: &Sizes) -> bool {
         !self.seen(sizes).is_empty()
     }

@@ -160,6 +160,11 @@ pub trait Effect: Send + Sync {
         false
     }
 
+    /// False of what goes on whatever moves: it cannot stand for what is wrong in the form of another effect.
+    fn follows_the_motion(&self) -> bool {
+        true
+    }
+
     /// True where the law scales the springs of a hysteretic base model and not its hysteretic force: beside
     /// another base it is the plain law.
     fn on_springs_alone(&self) -> bool {
