@@ -7,7 +7,8 @@
 //! | `tau_c` | relaxation time | s | 1/3 to 30 times the longest recording |
 //! | s | share of the stiffness lost a decade | - | 0 to 0.4 |
 //!
-//! The logarithmic kernel is a flat spectrum of relaxation times from `t_0` to ten times the recording.
+//! The logarithmic kernel falls with `log10(1 + t/t_0)`: a spectrum of relaxation times that is flat above `t_0` and fades
+//! below it as `exp(-t_0/tau)`, here up to ten times the recording.
 //! Reference: Findley, Lai and Onaran, Creep and Relaxation of Nonlinear Viscoelastic Materials, 1976.
 //! Known limit: with a mean displacement and in one recording it cannot be told from drift.
 
@@ -15,7 +16,7 @@ use super::maxwell::{branch, branches};
 use super::{About, Effect, Factors, Scene, Sizes, order_within, orders, positive, within};
 use crate::parameter::Parameter;
 
-/// Relaxation times a decade in the flat spectrum.
+/// Relaxation times a decade in the spectrum.
 const A_DECADE: f64 = 2.0;
 
 /// Form of the creep.
@@ -31,13 +32,17 @@ pub(super) enum Creep {
     AgeingWhole,
 }
 
-/// Relaxation from rest of one unit of stiffness a decade, from `t_0` to ten times the recording.
-fn flat(scene: &Scene, t_0: f64) -> Vec<f64> {
-    let decades = (10.0 * scene.duration() / t_0).log10().max(0.5);
+/// The shortest relaxation time in shares of `t_0`: less than 1 % of the spectrum is left there.
+const SHORTEST: f64 = 0.2;
+
+/// Relaxation from rest of one unit of stiffness a decade.
+fn fading(scene: &Scene, t_0: f64) -> Vec<f64> {
+    let shortest = SHORTEST * t_0;
+    let decades = (10.0 * scene.duration() / shortest).log10().max(1.0);
     let count = (A_DECADE * decades).ceil() as usize + 1;
     let weight = decades / (count - 1) as f64;
-    let taus = orders(t_0, t_0 * 10.0_f64.powf(decades), count);
-    branches(scene, taus.into_iter().map(|tau| (tau, weight)))
+    let taus = orders(shortest, shortest * 10.0_f64.powf(decades), count);
+    branches(scene, taus.into_iter().map(|tau| (tau, weight * (-t_0 / tau).exp())))
 }
 
 impl Creep {
@@ -52,7 +57,7 @@ impl Effect for Creep {
             effect: "creep",
             law: "logarithmic",
             plain: "the force creeps: it relaxes with the logarithm of time or very slowly",
-            equation: "F_c = sum_i z_i, dz_i/dt = k_c v - z_i/tau_i, tau_i evenly over the decades from t_0 on",
+            equation: "F_c = sum_i exp(-t_0/tau_i) z_i, dz_i/dt = k_c v - z_i/tau_i, tau_i evenly over the decades",
             reference: "Findley, Lai and Onaran 1976",
             limit: "with a mean displacement and in one recording it cannot be told from drift",
         };
@@ -106,7 +111,7 @@ impl Effect for Creep {
 
     fn columns(&self, scene: &Scene, shape: &[f64]) -> Vec<Vec<f64>> {
         match self {
-            Self::Logarithmic => vec![flat(scene, shape[0])],
+            Self::Logarithmic => vec![fading(scene, shape[0])],
             Self::Slow => vec![branch(scene, shape[0])],
             Self::Ageing | Self::AgeingWhole => Vec::new(),
         }
