@@ -51,6 +51,19 @@ print(result.reason)
     assert (run.returncode, run.stdout, run.stderr) == (0, "interrupted\n", "")
 
 
+@pytest.mark.parametrize("swarm", ["mafsa", "afsa", "pso"])
+def test_an_interrupt_that_is_seen_when_the_run_is_through_counts(swarm: str) -> None:
+    code = f"""
+problem = mre_core.Problem(recording.cut(0, 1), "kelvin_voigt")
+def stop(*told):
+    signal.raise_signal(signal.SIGINT)
+result = mre_core.{swarm}(problem, seed=1, max_iterations=1, callback=stop, on_interrupt="return")
+print(result.reason)
+"""
+    run = run_script(LONG_JOB.rpartition("threading.Timer")[0] + code)
+    assert (run.returncode, run.stdout, run.stderr) == (0, "interrupted\n", "")
+
+
 def test_interrupt_of_a_function_of_the_user() -> None:
     code = f"""
 def slow(points):
