@@ -21,10 +21,9 @@ pub(crate) fn history_to_python<'py>(py: Python<'py>, history: &History) -> PyRe
 /// The name of a reason in Python.
 pub(crate) fn name_of(reason: StopReason, ended: Ended) -> &'static str {
     match (reason, ended) {
-        // Also where the run was through when the signal was seen.
-        (_, Ended::Interrupted) => "interrupted",
         (StopReason::Interrupted, Ended::ByCallback) => "callback",
-        (StopReason::Interrupted, _) => "interrupted",
+        // Also where the run was through when the signal was seen.
+        (_, Ended::Interrupted) | (StopReason::Interrupted, _) => "interrupted",
         (StopReason::Iterations, _) => "max_iterations",
         (StopReason::Evaluations, _) => "max_evaluations",
         (StopReason::Time, _) => "time_limit",
