@@ -332,7 +332,10 @@ def test_a_file_that_changes_while_it_is_read(tmp_path: Path) -> None:
     recordings(folder, 1, rate=65)
     with Child() as child:
         outcome = child.run(task, None)
-    assert outcome.error == "r000.csv: changed since the batch began, wanted files that stay as they are"
+        gone = child.run(replace(task, contents=(b"",)), None)  # what is sent where it cannot be read
+    said = "r000.csv: changed since the batch began, wanted files that stay as they are"
+    assert (outcome.error, gone.error) == (said, said)
+    assert not (outcome.lasting or gone.lasting)
 
 
 def test_what_another_attempt_may_mend(five: Path) -> None:

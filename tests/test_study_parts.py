@@ -25,7 +25,7 @@ from mre_core.study.swarm_runs import (
     summarise,
 )
 from mre_core.study.truths import truths
-from reference.models import Motion, classical_bouc_wen
+from reference.models import Motion, classical_bouc_wen, pieces
 from rig import BOUC_WEN, SINH, force_of, made_of, motion, record
 
 TINY = Effort(seeds=2, bouc_wen_seeds=1, bouc_wen_iterations=2)
@@ -171,7 +171,7 @@ def test_eq_1_and_2_as_written_against_their_twin() -> None:
         assert abs(p["gamma"]) <= p["beta"]
         five = (p["k0"], p["alpha"], p["A"], p["beta"], p["gamma"])
         sine = Motion(moved.time, moved.displacement, moved.velocity)
-        force = classical_bouc_wen(five, p["n"], p["c0"], [8] * (len(moved) - 1), sine) + p["F0"]
+        force = classical_bouc_wen(five, p["n"], p["c0"], [8] * len(pieces(sine)), sine) + p["F0"]
         error = force - force_of(problem.recordings[0])
         assert np.mean(error**2) == pytest.approx(run.fitness, rel=1e-3)
 

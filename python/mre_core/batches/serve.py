@@ -14,17 +14,20 @@ def serve() -> None:
     """Work until the input ends; then end at once, in the middle of an item if need be."""
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what is printed is no answer
-    answers.write(b"!")  # ready
-    answers.flush()
+    _say(answers, b"!")  # ready
     tasks: queue.Queue[Task] = queue.Queue()
     threading.Thread(target=_listen, args=(sys.stdin.buffer, tasks), daemon=True).start()
     while True:
         outcome = work(tasks.get())
-        try:
-            pickle.dump(outcome, answers)
-            answers.flush()
-        except OSError:  # nobody listens any more
-            os._exit(0)
+        _say(answers, pickle.dumps(outcome))
+
+
+def _say(answers: BinaryIO, content: bytes) -> None:
+    try:
+        answers.write(content)
+        answers.flush()
+    except OSError:  # nobody listens any more
+        os._exit(0)
 
 
 def _listen(source: BinaryIO, tasks: "queue.Queue[Task]") -> None:

@@ -4,7 +4,7 @@ import tempfile
 import time
 import warnings
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -67,7 +67,8 @@ def work(task: Task) -> Outcome:
             except MreError as problem:
                 error = _without_folders(str(problem), files, task)
                 notes = isinstance(problem, NotesError) and _is_for_notes(problem.file)
-                lasting = not isinstance(problem.__context__, OSError)  # a disk may come back
+                # A disk may come back.
+                lasting = not (isinstance(problem, _ChangedError) or isinstance(problem.__context__, OSError))
         if not error:
             texts = [_without_folders(one_line(str(w.message)), files, task) for w in said]
             row["warnings"] = "; ".join(dict.fromkeys(texts))
@@ -113,9 +114,21 @@ def _without_folders(text: str, files: list[Path], task: Task) -> str:
 
 def _loaded(files: list[Path], task: Task) -> list[Recording]:
     """Load the files, and see that they are what the batch began with."""
-    recordings = task.settings.reading.load(files)
-    if digest_of_all([digest_of(file) for file in files]) != task.digest:
-        raise InputError(
-            "changed since the batch began", file=task.item, wanted="files that stay as they are"
-        )
+    try:
+        recordings = task.settings.reading.load(files)
+    except MreError:  # which says nothing where the files are not those that were meant
+        with suppress(OSError):
+            _check(files, task)
+        raise
+    _check(files, task)
     return recordings
+
+
+def _check(files: list[Path], task: Task) -> None:
+    if digest_of_all([digest_of(file) for file in files]) != task.digest:
+        wanted = "files that stay as they are"
+        raise _ChangedError("changed since the batch began", file=task.item, wanted=wanted)
+
+
+class _ChangedError(InputError):
+    """Files that were others a moment ago may be the same again later."""

@@ -96,7 +96,7 @@ def run_trial(
                 failed.append(outcome)
                 continue
             found = {"schema": DIAGNOSIS, "case": outcome.item, "recordings_sha256": sums[outcome.item]}
-            found |= {"error": outcome.error} if outcome.error else outcome.row
+            found |= {"error": outcome.error} if outcome.error else {"diagnosis": outcome.row["diagnosis"]}
             with staged(folder.diagnoses) as stage:
                 stage.write_json(f"{outcome.item}.json", found | {"seconds": outcome.seconds})
             done.append(outcome.item)
