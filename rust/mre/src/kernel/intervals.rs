@@ -128,8 +128,8 @@ fn largest(intervals: &[Interval]) -> f64 {
     intervals.iter().map(|interval| interval.demand).fold(0.0, f64::max)
 }
 
-/// Velocity halfway between samples, on the cubic through the two before and the two after; a parabola at the
-/// ends.
+/// Velocity halfway between samples: the mean of the parabolas through the sample before and the one after, which at
+/// even times is the cubic through all four; one parabola at the ends.
 ///
 /// On the straight line between two samples, with 22 samples a cycle, the path would be 0.7 % short: more than
 /// the noise of a good recording.
