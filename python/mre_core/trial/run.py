@@ -86,7 +86,8 @@ def run_trial(
             raise InputError(f"case {case} has no recordings", file=str(folder.root), wanted="CSV files")
     if on_done is not None:
         on_done(len(done), len(cases))
-    left = {case: _task(folder, case, base) for case, base in cases.items() if case not in done}
+    settings = {base: Settings.of(None, base, Reading(), {}, None) for base in set(cases.values())}
+    left = {case: _task(folder, case, settings[base]) for case, base in cases.items() if case not in done}
     sums = {case: digest(folder.recordings(case)) for case in left}
     failed: list[Outcome] = []
 
@@ -115,10 +116,9 @@ def run_trial(
     return len(left)
 
 
-def _task(folder: Folder, case: str, base: str) -> Task:
+def _task(folder: Folder, case: str, settings: Settings) -> Task:
     files = [path.resolve() for path in folder.recordings(case)]
     content = digest_of_all([digest_of(file) for file in files])
-    settings = Settings.of(None, base, Reading(), {}, None)
     return Task(case, tuple(map(str, files)), content, 1, settings, _diagnosis)
 
 
