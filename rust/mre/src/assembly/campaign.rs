@@ -5,10 +5,10 @@ use std::sync::{Arc, OnceLock};
 
 use rayon::prelude::*;
 
+use super::motion::{Doubts, of_one_motion};
 use crate::effect::{Acceleration, Scene, Sizes};
 use crate::error::{Error, Result};
 use crate::recording::{Condition, Recording};
-use crate::velocity;
 
 /// Recordings with sizes, and what is derived of them.
 #[derive(Debug, Clone)]
@@ -16,7 +16,7 @@ pub struct Campaign {
     recordings: Vec<Arc<Recording>>,
     accelerations: Vec<OnceLock<Vec<f64>>>,
     currents: Vec<Option<Vec<f64>>>,
-    corners: Vec<Vec<Range<usize>>>,
+    doubts: Vec<Doubts>,
     before: Vec<f64>,
     sizes: Sizes,
 }
@@ -37,10 +37,10 @@ impl Campaign {
             }
             evenly_sampled(recording)?;
         }
-        let (recordings, corners): (Vec<Arc<Recording>>, _) =
+        let (recordings, doubts): (Vec<Arc<Recording>>, _) =
             recordings.into_par_iter().map(|r| of_one_motion(&r)).unzip();
         let sizes = Sizes::of(recordings.iter().map(AsRef::as_ref));
-        Ok(Self::with_sizes(recordings, sizes).leaving_out(corners))
+        Ok(Self::with_sizes(recordings, sizes).doubting(doubts))
     }
 
     /// The same for a simulation, with the sizes of the recordings that the effects were fitted to.
@@ -56,19 +56,25 @@ impl Campaign {
                 start
             })
             .collect();
-        let corners = vec![Vec::new(); recordings.len()];
-        Self { recordings, accelerations, currents, corners, before, sizes }
+        let doubts = vec![Doubts::default(); recordings.len()];
+        Self { recordings, accelerations, currents, doubts, before, sizes }
     }
 
-    /// The same with other corners, by recording.
+    /// The same with doubts about the motions, by recording.
     #[must_use]
-    pub(crate) fn leaving_out(self, corners: Vec<Vec<Range<usize>>>) -> Self {
-        Self { corners, ..self }
+    pub(crate) fn doubting(self, doubts: Vec<Doubts>) -> Self {
+        Self { doubts, ..self }
     }
 
-    /// Samples near a corner of a motion whose velocity is derived: it is wrong there, and no fit counts them.
-    pub fn corners(&self) -> &[Vec<Range<usize>>] {
-        &self.corners
+    /// Samples near a corner of a motion whose velocity is derived, by recording: it is wrong there, and no fit
+    /// counts them.
+    pub fn corners(&self) -> impl Iterator<Item = &[Range<usize>]> {
+        self.doubts.iter().map(|doubts| doubts.corners.as_slice())
+    }
+
+    /// In what the motion of each recording is not to be trusted.
+    pub(crate) fn doubts(&self) -> &[Doubts] {
+        &self.doubts
     }
 
     /// The same with other sizes.
@@ -102,23 +108,6 @@ impl Campaign {
             sizes: &self.sizes,
         }
     }
-}
-
-/// A recording whose displacement is the one that its velocity is the slope of, without the noise of the two; and
-/// the corners where that velocity is wrong.
-///
-/// Otherwise that noise, which the force does not follow, could be told from the two, and every effect with
-/// memory would seem to explain it.
-fn of_one_motion(recording: &Recording) -> (Arc<Recording>, Vec<Range<usize>>) {
-    let (time, x, v) = (recording.time(), recording.displacement(), recording.velocity());
-    let (displacement, velocity, corners) = if recording.velocity_window().is_some() {
-        let derived = velocity::from_displacement(time, x);
-        (derived.displacement, v.to_vec(), derived.corners)
-    } else {
-        let v = velocity::smoothed(time, v);
-        (velocity::without_noise(time, x, &v), v, Vec::new())
-    };
-    (Arc::new(recording.seen_with(displacement, velocity, None)), corners)
 }
 
 fn current(recording: &Recording) -> Option<Vec<f64>> {

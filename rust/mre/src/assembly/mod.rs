@@ -7,6 +7,7 @@ mod columns;
 mod in_series;
 mod kept;
 mod layout;
+mod motion;
 mod simulate;
 
 pub use base::Base;
@@ -14,4 +15,5 @@ pub use campaign::Campaign;
 pub use columns::Columns;
 pub use kept::Kept;
 pub use layout::Assembly;
+pub(crate) use motion::Doubts;
 pub use simulate::{Addition, simulate};

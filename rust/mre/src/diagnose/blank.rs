@@ -158,7 +158,7 @@ fn simulated(found: &Diagnosis, force: &[Vec<f64>], seed: u64, number: usize) ->
     });
     let recordings: Vec<_> = recordings.collect();
     let sizes = Sizes::of(recordings.iter().map(AsRef::as_ref));
-    Campaign::with_sizes(recordings, sizes).leaving_out(known.corners().to_vec())
+    Campaign::with_sizes(recordings, sizes).doubting(known.doubts().to_vec())
 }
 
 /// Tells nothing of the stages inside one campaign.

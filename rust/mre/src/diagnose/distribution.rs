@@ -8,6 +8,20 @@ pub(super) fn chi_square_tail(x: f64, freedom: usize) -> f64 {
     upper_gamma(0.5 * freedom as f64, 0.5 * x)
 }
 
+/// The value that a chi-square variable exceeds with a chance, by bisection.
+pub(super) fn chi_square_beyond(chance: f64, freedom: usize) -> f64 {
+    let (mut low, mut high) = (0.0, 1.0);
+    while chi_square_tail(high, freedom) > chance {
+        (low, high) = (high, 2.0 * high);
+    }
+    for _ in 0..50 {
+        let middle = 0.5 * (low + high);
+        if chi_square_tail(middle, freedom) > chance { low = middle } else { high = middle }
+    }
+    // From above: at least as far out.
+    high
+}
+
 /// Regularised upper incomplete gamma function, by series and continued fraction (Abramowitz and Stegun
 /// 6.5.29 and 6.5.31).
 fn upper_gamma(a: f64, x: f64) -> f64 {
@@ -88,6 +102,7 @@ mod tests {
             (2.705_543_454_095_404, 1, 0.1),
         ] {
             assert!((chi_square_tail(x, freedom) - p).abs() < 1e-12, "{x} {freedom}");
+            assert!((chi_square_beyond(p, freedom) / x - 1.0).abs() < 1e-9, "{p} {freedom}");
         }
         assert!((normal_tail(1.959_963_984_540_054) - 0.025).abs() < 1e-12);
         assert!((normal_tail(-1.959_963_984_540_054) - 0.975).abs() < 1e-12);

@@ -25,7 +25,7 @@ const POSSIBLE: f64 = 4.0;
 /// Caution: the extrapolated power is taken so many times as large.
 const CAUTION: f64 = 1.25;
 
-/// The residuals without their drift, if there is one.
+/// The residuals without their drift and their means, if there is one.
 pub(super) fn without_drift(residuals: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let waves = waves(residuals);
     if chance_of(residuals, &waves) > CHANCE {
@@ -36,7 +36,9 @@ pub(super) fn without_drift(residuals: &[Vec<f64>]) -> Vec<Vec<f64>> {
         .zip(&waves)
         .map(|(e, w)| {
             let n = e.len();
-            let slow = |i: usize| (1..=SLOW).map(|k| w[k - 1] * wave(n, k, i)).sum::<f64>();
+            // Where a zero drifts, the mean is its own as well.
+            let mean = e.iter().sum::<f64>() / n as f64;
+            let slow = |i: usize| mean + (1..=SLOW).map(|k| w[k - 1] * wave(n, k, i)).sum::<f64>();
             e.iter().enumerate().map(|(i, e)| e - slow(i)).collect()
         })
         .collect()

@@ -10,6 +10,13 @@ use crate::assembly::Assembly;
 use crate::effect::{Effect, Scene};
 use crate::kernel::filter::dot;
 
+/// What may be noise of a derived motion, whitened: the force does not follow it, so that every coefficient of it is
+/// possible.
+fn noisy(assembly: &Assembly, data: Data, r: usize) -> impl Iterator<Item = Vec<f64>> {
+    let all = assembly.campaign().doubts()[r].noisy.iter().flatten();
+    all.map(move |series| whitened(data.noise, r, &data.rows[r], series))
+}
+
 /// Orthogonal complement of the tangents of a fitted model, by recording.
 pub(super) struct Null<'a> {
     assembly: Assembly<'a>,
@@ -30,13 +37,19 @@ impl<'a> Null<'a> {
         }
         let assembly = assembly.knowing(&assembly.physical(unit));
         let point = Point::at(&assembly, data, unit.to_vec());
-        let count = point.fitted.coefficients.len() + unit.len();
+        let known = point.fitted.coefficients.len() + unit.len();
         let tangents: Vec<Vec<(usize, Vec<f64>)>> = point
             .tangents(&assembly, data)
             .into_iter()
             .zip(&point.recordings)
-            .map(|(own, local)| local.columns.iter().cloned().chain(own).collect())
+            .enumerate()
+            .map(|(r, (own, local))| {
+                let noisy = noisy(&assembly, data, r).enumerate().map(|(k, column)| (known + k, column));
+                local.columns.iter().cloned().chain(own).chain(noisy).collect()
+            })
             .collect();
+        let last = tangents.iter().flatten().map(|(place, _)| place + 1).max();
+        let count = last.unwrap_or(0).max(known);
         let mut gram = DMatrix::<f64>::zeros(count, count);
         let mut right = DVector::<f64>::zeros(count);
         for (columns, local) in tangents.iter().zip(&point.recordings) {

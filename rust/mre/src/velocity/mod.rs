@@ -10,6 +10,8 @@
 
 mod corners;
 mod local;
+mod low_pass;
+mod octaves;
 mod window;
 
 use std::ops::Range;
@@ -17,6 +19,7 @@ use std::ops::Range;
 use crate::recording::even_step;
 use corners::corners;
 use local::{NARROWEST, TERMS};
+pub use octaves::{Calmed, calmed};
 use window::Window;
 
 /// Terms of the polynomials that are tried between corners.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::excitation::Signal;
-use crate::assembly::{Assembly, Base, Campaign};
+use crate::assembly::{Assembly, Base, Campaign, Doubts};
 use crate::diagnose::least_squares::Fitted;
 use crate::recording::{Condition, Recording, Series};
 
@@ -52,8 +52,8 @@ impl World {
         if signal.current.is_some() && !known.sizes().current_varies {
             return None;
         }
-        let corners = known.corners().iter().cloned().chain([Vec::new()]).collect();
-        let campaign = Campaign::with_sizes(recordings, known.sizes().clone()).leaving_out(corners);
+        let doubts = known.doubts().iter().cloned().chain([Doubts::default()]).collect();
+        let campaign = Campaign::with_sizes(recordings, known.sizes().clone()).doubting(doubts);
         Some(Self { campaign, base })
     }
 

@@ -1,0 +1,40 @@
+//! What a diagnosis makes of a recorded motion, and in what that is not to be trusted.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use crate::recording::Recording;
+use crate::velocity;
+
+/// In what a motion whose velocity is derived is not to be trusted.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Doubts {
+    /// Samples near a corner: the velocity is wrong there, and no fit counts them.
+    pub(crate) corners: Vec<Range<usize>>,
+    /// Parts of the displacement, mm, and of the velocity, mm/s, that are noise or may hold some. The force does not
+    /// follow it, and an effect that attenuates what is fast would seem to explain that.
+    pub(crate) noisy: Vec<[Vec<f64>; 2]>,
+}
+
+/// A recording whose displacement is the one that its velocity is the slope of, without the noise of the two.
+///
+/// Otherwise that noise, which the force does not follow, could be told from the two, and every effect with
+/// memory would seem to explain it.
+pub(super) fn of_one_motion(recording: &Recording) -> (Arc<Recording>, Doubts) {
+    let (time, x, v) = (recording.time(), recording.displacement(), recording.velocity());
+    let (displacement, velocity, doubts) = if recording.velocity_window().is_some() {
+        let derived = velocity::from_displacement(time, x);
+        if derived.corners.is_empty() {
+            let velocity::Calmed { displacement, velocity, noisy } = velocity::calmed(time, x, &derived);
+            (displacement, velocity, Doubts { corners: Vec::new(), noisy })
+        } else {
+            // Across a corner a longer window takes off motion.
+            let velocity::Derived { displacement, velocity, corners, .. } = derived;
+            (displacement, velocity, Doubts { corners, noisy: Vec::new() })
+        }
+    } else {
+        let v = velocity::smoothed(time, v);
+        (velocity::without_noise(time, x, &v), v, Doubts::default())
+    };
+    (Arc::new(recording.seen_with(displacement, velocity, None)), doubts)
+}

@@ -1,0 +1,137 @@
+//! Noise that the window of a derived velocity lets through.
+//!
+//! A local polynomial passes frequencies far above those of the motion. What a window of twice the length takes off
+//! is such noise and a little of the motion: a low pass keeps of it what the motion asks for (with the smallest estimate
+//! of the error: Stein 1981, <https://doi.org/10.1214/aos/1176345632>). And where a motion is slower than elsewhere,
+//! octave by octave what the next window takes off is compared with what noise would leave there.
+
+use super::Derived;
+use super::local::{Local, TERMS};
+use super::low_pass::LowPass;
+use super::window::Window;
+
+/// Widest half window in samples.
+const WIDEST: usize = 256;
+/// Cut-off frequencies that are tried are so many times apart.
+const APART: f64 = 1.15;
+/// An octave with less than so many times the mean square that noise has is noise.
+const NOISE: f64 = 2.0;
+/// Octaves that may hold noise beside motion.
+const MIXED: usize = 2;
+
+/// A derived motion with less noise.
+pub struct Calmed {
+    /// Displacement, mm.
+    pub displacement: Vec<f64>,
+    /// Velocity, mm/s.
+    pub velocity: Vec<f64>,
+    /// Parts of the displacement, mm, and of the velocity, mm/s, that are noise or may hold some: what was taken off,
+    /// and what was left of the fastest octaves.
+    pub noisy: Vec<[Vec<f64>; 2]>,
+}
+
+/// A motion and the share of white noise that is left in its displacement, mean square.
+#[derive(Clone)]
+struct Smooth {
+    motion: [Vec<f64>; 2],
+    share: f64,
+}
+
+impl Smooth {
+    fn less(&self, other: &Self) -> [Vec<f64>; 2] {
+        [0, 1].map(|k| each(&self.motion[k], &other.motion[k], |a, b| a - b))
+    }
+}
+
+fn each(a: &[f64], b: &[f64], of: impl Fn(f64, f64) -> f64) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| of(*a, *b)).collect()
+}
+
+/// A derived motion on an even grid less its noise, from the measured displacement in mm.
+pub fn calmed(time: &[f64], measured: &[f64], derived: &Derived) -> Calmed {
+    let n = time.len();
+    let step = (time[n - 1] - time[0]) / (n - 1) as f64;
+    let mut half = (0.5 * derived.window / step).round() as usize;
+    let share = Local::fit(time, measured, n / 2, half, TERMS).leverage;
+    let square = |smooth: &[f64]| -> f64 {
+        measured.iter().zip(smooth).map(|(a, b)| (a - b).powi(2)).sum::<f64>() / n as f64
+    };
+    let left = square(&derived.displacement);
+    let variance = left / (1.0 - share).max(f64::MIN_POSITIVE);
+    let poly = |half: usize| -> Option<Smooth> {
+        if half > WIDEST.min(n / 4) {
+            return None;
+        }
+        let (slope, value) = Window { half, terms: TERMS }.over(time, measured);
+        let share = Local::fit(time, measured, n / 2, half, TERMS).leverage;
+        Some(Smooth { motion: [value, slope], share })
+    };
+    let narrow = Smooth { motion: [derived.displacement.clone(), derived.velocity.clone()], share };
+    let Some(wide) = poly(2 * half) else {
+        let [displacement, velocity] = narrow.motion;
+        return Calmed { displacement, velocity, noisy: Vec::new() };
+    };
+    // Near its ends a recording has windows that are off their middle.
+    let rises = |i: usize| ((i.min(n - 1 - i) as f64 / (2 * half) as f64) - 1.0).clamp(0.0, 1.0);
+    let octave = narrow.less(&wide).map(|o| o.iter().enumerate().map(|(i, d)| rises(i) * d).collect());
+    let risk = |smooth: &Smooth| square(&smooth.motion[0]) + 2.0 * variance * smooth.share;
+    let mut least = risk(&narrow);
+    let mut best = narrow.clone();
+    let mut frequency = 0.5 * share / step;
+    while 2.0 * frequency * step > wide.share {
+        let Some(kept) = LowPass::new(frequency, step).over_both(&octave) else { break };
+        let motion = [0, 1].map(|k| {
+            let fast = each(&octave[k], &kept[k], |all, slow| all - slow);
+            each(&narrow.motion[k], &fast, |all, fast| all - fast)
+        });
+        let tried = Smooth { motion, share: 2.0 * frequency * step };
+        let of_tried = risk(&tried);
+        if of_tried < least {
+            (least, best) = (of_tried, tried);
+        }
+        frequency /= APART;
+    }
+    let mut noisy = Vec::new();
+    let mut taken = [vec![0.0; n], vec![0.0; n]];
+    let mut slower = Some(wide);
+    let mut fast = Smooth { motion: best.motion.clone(), share: best.share };
+    while let Some(slow) = slower {
+        half *= 2;
+        // The kernel of a least squares fit is a polynomial, which a narrower fit keeps.
+        let noise = variance * (fast.share - slow.share).max(0.0);
+        let mut octave = fast.less(&slow);
+        let shares: Vec<f64> = around(&octave[0], 2 * half)
+            .into_iter()
+            .map(|square| if square > NOISE * noise { (NOISE * noise / square).powi(2) } else { 1.0 })
+            .collect();
+        for (taken, octave) in taken.iter_mut().zip(&mut octave) {
+            for ((taken, octave), share) in taken.iter_mut().zip(octave).zip(&shares) {
+                *taken += share * *octave;
+                *octave *= 1.0 - share;
+            }
+        }
+        if noisy.len() < MIXED {
+            noisy.push(octave);
+        }
+        fast = slow;
+        slower = poly(2 * half);
+    }
+    let [displacement, velocity] = [0, 1].map(|k| each(&best.motion[k], &taken[k], |a, b| a - b));
+    let noisy = std::iter::once(taken).chain(noisy).collect();
+    Calmed { displacement, velocity, noisy }
+}
+
+/// Mean square over so many samples on either side.
+fn around(series: &[f64], reach: usize) -> Vec<f64> {
+    let mut sums = vec![0.0];
+    sums.extend(series.iter().scan(0.0, |sum, e| {
+        *sum += e * e;
+        Some(*sum)
+    }));
+    (0..series.len())
+        .map(|i| {
+            let (first, end) = (i.saturating_sub(reach), (i + reach + 1).min(series.len()));
+            (sums[end] - sums[first]) / (end - first) as f64
+        })
+        .collect()
+}
