@@ -5,8 +5,9 @@ import shutil
 import signal
 import subprocess
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -143,8 +144,50 @@ def test_cases_that_another_attempt_may_do_are_told(copy: Path, cli: Cli) -> Non
     with alone_in(copy / "diagnoses"):
         status, out, err = cli("trial", "run", copy, "--resume")
     assert (status, out) == (2, "")
-    assert "another batch is at work there, wanted its end" in err
+    assert "another process is at work there, wanted its end" in err
     assert cli("trial", "run", copy, "--resume") == (0, "1 cases diagnosed\n", "")
+
+
+@pytest.mark.parametrize("what", ["run", "open"])
+def test_one_at_a_time(copy: Path, cli: Cli, what: str) -> None:
+    # Whatever stands in the folder of another run, it may be another thing the moment after.
+    (copy / "diagnoses/0002.json").unlink()
+    with alone_in(copy / "diagnoses"):
+        before = everything_in(copy)
+        status, out, err = cli("trial", what, copy)
+        assert everything_in(copy) == before
+    assert (status, out) == (2, "")
+    place = copy / "diagnoses"
+    assert err == f"mre-core: {place}: another process is at work there, wanted its end, or another folder\n"
+
+
+def test_what_ends_while_a_run_begins_is_seen(copy: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (copy / "diagnoses/0002.json").unlink()
+
+    @contextmanager
+    def after_another(place: Path) -> Iterator[None]:
+        """What had the folder ends just before it is given."""
+        (copy / "results.json").touch()
+        with alone_in(place):
+            yield
+
+    monkeypatch.setattr("mre_core.trial.run.alone_in", after_another)
+    with pytest.raises(mre_core.InputError, match="the trial was opened"):
+        run_trial(copy, resume=True, workers=1)
+
+
+@pytest.mark.parametrize("left", [[], ["0001.json"]])
+def test_what_is_refused_leaves_nothing(copy: Path, cli: Cli, left: list[str]) -> None:
+    shutil.rmtree(copy / "recordings/0002")
+    for file in (copy / "diagnoses").iterdir():
+        if file.name not in left:
+            file.unlink()
+    if not left:
+        (copy / "diagnoses").rmdir()
+    before = everything_in(copy)
+    for what in (["run", "--resume"], ["open"]):
+        assert cli("trial", what[0], copy, *what[1:])[0] == 2
+        assert everything_in(copy) == before
 
 
 def edit(path: Path, old: str, new: str) -> None:

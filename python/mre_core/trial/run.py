@@ -1,7 +1,7 @@
 """Diagnose the recordings of a trial, which is all that is read of it."""
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from concurrent.futures import Executor
 from pathlib import Path
 from typing import Any
@@ -66,6 +66,40 @@ def run_trial(
     check_listener(on_done, "on_done")
     folder = Folder(Path(directory))
     cases = folder.cases()
+    with alone_in(folder.diagnoses):  # before looking at what is done, which another run or 'open' may change
+        done = _done(folder, cases, resume)
+        if on_done is not None:
+            on_done(len(done), len(cases))
+        settings = {base: Settings.of(None, base, Reading(), {}, None) for base in set(cases.values())}
+        left = {case: _task(folder, case, settings[base]) for case, base in cases.items() if case not in done}
+        sums = {case: digest(folder.recordings(case)) for case in left}
+        failed: list[Outcome] = []
+
+        def take(outcomes: list[Outcome]) -> None:
+            for outcome in outcomes:
+                if not outcome.lasting:
+                    failed.append(outcome)
+                    continue
+                case = outcome.item
+                said = {"error": outcome.error} if outcome.error else {"diagnosis": outcome.row["diagnosis"]}
+                found = {"schema": DIAGNOSIS, "case": case, "recordings_sha256": sums[case]} | said
+                with staged(folder.diagnoses) as stage:
+                    stage.write_json(f"{case}.json", found | {"seconds": outcome.seconds})
+                done.append(case)
+            if on_done is not None:
+                on_done(len(done), len(cases))
+
+        with chosen_engine(workers, 1, cluster, executor, folder.root) as engine:
+            drive(list(left.values()), engine, None, take)
+    if failed:
+        first = f"case {failed[0].item}: {failed[0].error}"
+        problem = f"{len(failed)} of {len(cases)} cases were not diagnosed ({first})"
+        raise InputError(problem, file=str(folder.root), wanted="--resume to try them again")
+    return len(left)
+
+
+def _done(folder: Folder, cases: Collection[str], resume: bool) -> list[str]:
+    """List the cases that have a diagnosis, where a run may begin or go on."""
     if folder.results.exists():
         raise InputError(
             "the trial was opened: a run that knows the answers shows nothing",
@@ -84,36 +118,7 @@ def run_trial(
     for case in cases:
         if not folder.recordings(case):
             raise InputError(f"case {case} has no recordings", file=str(folder.root), wanted="CSV files")
-    if on_done is not None:
-        on_done(len(done), len(cases))
-    settings = {base: Settings.of(None, base, Reading(), {}, None) for base in set(cases.values())}
-    left = {case: _task(folder, case, settings[base]) for case, base in cases.items() if case not in done}
-    sums = {case: digest(folder.recordings(case)) for case in left}
-    failed: list[Outcome] = []
-
-    def take(outcomes: list[Outcome]) -> None:
-        for outcome in outcomes:
-            if not outcome.lasting:
-                failed.append(outcome)
-                continue
-            found = {"schema": DIAGNOSIS, "case": outcome.item, "recordings_sha256": sums[outcome.item]}
-            found |= {"error": outcome.error} if outcome.error else {"diagnosis": outcome.row["diagnosis"]}
-            with staged(folder.diagnoses) as stage:
-                stage.write_json(f"{outcome.item}.json", found | {"seconds": outcome.seconds})
-            done.append(outcome.item)
-        if on_done is not None:
-            on_done(len(done), len(cases))
-
-    with (
-        chosen_engine(workers, 1, cluster, executor, folder.root) as engine,
-        alone_in(folder.diagnoses),
-    ):
-        drive(list(left.values()), engine, None, take)
-    if failed:
-        first = f"case {failed[0].item}: {failed[0].error}"
-        problem = f"{len(failed)} of {len(cases)} cases were not diagnosed ({first})"
-        raise InputError(problem, file=str(folder.root), wanted="--resume to try them again")
-    return len(left)
+    return done
 
 
 def _task(folder: Folder, case: str, settings: Settings) -> Task:
