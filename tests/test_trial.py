@@ -4,7 +4,9 @@ import json
 import shutil
 import signal
 import subprocess
+import sys
 import time
+from collections import Counter
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
@@ -14,8 +16,10 @@ from typing import Any
 import mre_core
 import numpy as np
 import pytest
+from mre_core.batches import items
 from mre_core.batches.journal import alone_in
-from mre_core.batches.work import Task
+from mre_core.batches.settings import Reading
+from mre_core.batches.work import Task, work
 from mre_core.trial import Case, make_trial, open_trial, run_trial
 from rig import Cli, command, everything_in
 
@@ -146,6 +150,38 @@ def test_cases_that_another_attempt_may_do_are_told(copy: Path, cli: Cli) -> Non
     assert (status, out) == (2, "")
     assert "another process is at work there, wanted its end" in err
     assert cli("trial", "run", copy, "--resume") == (0, "1 cases diagnosed\n", "")
+
+
+def test_seconds_are_those_of_the_diagnosis(copy: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """And every recording is read twice: for its digest, and by the worker that sees that it is still so."""
+    (copy / "diagnoses/0002.json").unlink()
+    clock, hashed = [0.0], []
+    diagnose, load = mre_core.diagnose, Reading.load
+    digest_of = items.digest_of
+
+    def slowly(work: Callable[..., Any], seconds: float) -> Callable[..., Any]:
+        def does(*given: Any, **options: Any) -> Any:
+            clock[0] += seconds
+            return work(*given, **options)
+
+        return does
+
+    def noted(path: Path) -> str:
+        hashed.append(path.name)
+        return digest_of(path)
+
+    monkeypatch.setattr(time, "perf_counter", lambda: clock[0])
+    monkeypatch.setattr(Reading, "load", slowly(load, 100.0))
+    monkeypatch.setattr(sys.modules["mre_core.diagnose"], "diagnose", slowly(diagnose, 7.0))
+    for module in ("trial.run", "trial.files", "batches.work"):
+        monkeypatch.setattr(f"mre_core.{module}.digest_of", noted)
+    with ThreadPoolExecutor(1) as executor:
+        submit = executor.submit
+        executor.submit = lambda _, tasks, *rest: submit(list, map(work, tasks))  # type: ignore[assignment]
+        run_trial(copy, resume=True, executor=executor)
+    said = json.loads((copy / "diagnoses/0002.json").read_text(encoding="utf-8"))
+    assert said["seconds"] == 7.0
+    assert Counter(hashed) == {path.name: 2 for path in (copy / "recordings/0002").iterdir()}
 
 
 @pytest.mark.parametrize("what", ["run", "open"])
