@@ -107,6 +107,11 @@ def write_file(path: str | os.PathLike[str], write: Callable[[Path], None]) -> N
 def _prepared(target: Path, made: list[Path]) -> Path:
     if "\0" in str(target):
         raise InputError("its name holds a null byte", file=str(target), wanted="a folder to write to")
+    try:
+        os.fsencode(target)
+    except UnicodeEncodeError:
+        problem = "its name holds half of a character, such as \\ud800"
+        raise InputError(problem, file=str(target), wanted="a folder to write to") from None
     for folder in [*reversed(target.parents), target]:
         if not folder.exists():
             folder.mkdir()
