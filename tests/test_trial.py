@@ -313,6 +313,19 @@ def test_without_recordings_there_is_no_run(copy: Path, cli: Cli) -> None:
     assert "case 0002 has no recordings" in err
 
 
+def test_a_recording_that_cannot_be_read(copy: Path, cli: Cli) -> None:
+    (copy / "diagnoses/0002.json").unlink()
+    odd = copy / "recordings/0002/03.csv"
+    odd.unlink()
+    odd.mkdir()
+    status, out, err = cli("trial", "run", copy, "--resume")
+    assert (status, out) == (2, "")
+    assert (
+        f"mre-core: {odd}: cannot be read: Is a directory, wanted recordings as 'trial make' wrote them\n"
+        == err
+    )
+
+
 @pytest.mark.parametrize("workers", ["1", "2"])
 def test_ctrl_c_leaves_whole_files(tmp_path: Path, workers: str) -> None:
     folder = tmp_path / "trial"

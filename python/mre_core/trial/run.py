@@ -72,11 +72,7 @@ def run_trial(
         if on_done is not None:
             on_done(len(done), len(cases))
         settings = {base: Settings.of(None, base, Reading(), {}, None) for base in set(cases.values())}
-        digests = {
-            case: {path.name: digest_of(path) for path in folder.recordings(case)}
-            for case in cases
-            if case not in done
-        }
+        digests = {case: _digests(folder.recordings(case)) for case in cases if case not in done}
         left = [_task(folder, case, digests[case], settings[cases[case]]) for case in digests]
         failed: list[Outcome] = []
 
@@ -125,6 +121,19 @@ def _done(folder: Folder, cases: Collection[str], resume: bool) -> list[str]:
         if not folder.recordings(case):
             raise InputError(f"case {case} has no recordings", file=str(folder.root), wanted="CSV files")
     return done
+
+
+def _digests(files: list[Path]) -> dict[str, str]:
+    found = {}
+    for file in files:
+        try:
+            found[file.name] = digest_of(file)
+        except OSError as error:
+            problem = f"cannot be read: {error.strerror or error}"
+            raise InputError(
+                problem, file=str(file), wanted="recordings as 'trial make' wrote them"
+            ) from None
+    return found
 
 
 def _task(folder: Folder, case: str, digests: Mapping[str, str], settings: Settings) -> Task:
