@@ -28,7 +28,11 @@ class Stage:
 
     def write_json(self, name: str, content: Any) -> None:
         """Write a JSON file; numbers that are not finite become null."""
-        self.path(name).write_text(to_json(content), encoding="utf-8")
+        self.write_text(name, to_json(content))
+
+    def write_text(self, name: str, content: str) -> None:
+        """Write a text in UTF-8."""
+        self.path(name).write_text(content, encoding="utf-8")
 
 
 def to_json(content: Any) -> str:
