@@ -441,7 +441,7 @@ def test_refused(cli: Cli, five: Path, tmp_path: Path) -> None:
         return err.removeprefix("mre-core: ").rstrip()
 
     with FileLock(out / "batch.lock"):
-        assert refused(*sinh) == f"{out}: another batch is at work there, wanted its end, or another folder"
+        assert refused(*sinh) == f"{out}: another process is at work there, wanted its end, or another folder"
     assert "a batch with other settings is there (model sinh, now kelvin_voigt)" in refused(
         *good, "--model", "kelvin_voigt"
     )

@@ -130,7 +130,7 @@ def test_a_folder_in_use_is_one_until_its_batch_ends(clock: dict[str, str], tmp_
         assert (second.returncode, second.stdout) == (2, "")
         assert (
             second.stderr
-            == f"mre-core: {out}: another batch is at work there, wanted its end, or another folder\n"
+            == f"mre-core: {out}: another process is at work there, wanted its end, or another folder\n"
         )
     other = run(quick, clock)  # the lock is gone with its process, however old it looks
     assert (other.returncode, other.stdout) == (2, "")

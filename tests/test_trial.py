@@ -4,17 +4,22 @@ import json
 import shutil
 import signal
 import subprocess
+import sys
 import time
-from collections.abc import Callable
+from collections import Counter
+from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import mre_core
 import numpy as np
 import pytest
+from mre_core.batches import items
 from mre_core.batches.journal import alone_in
-from mre_core.batches.work import Task
+from mre_core.batches.settings import Reading
+from mre_core.batches.work import Task, work
 from mre_core.trial import Case, make_trial, open_trial, run_trial
 from rig import Cli, command, everything_in
 
@@ -143,8 +148,82 @@ def test_cases_that_another_attempt_may_do_are_told(copy: Path, cli: Cli) -> Non
     with alone_in(copy / "diagnoses"):
         status, out, err = cli("trial", "run", copy, "--resume")
     assert (status, out) == (2, "")
-    assert "another batch is at work there, wanted its end" in err
+    assert "another process is at work there, wanted its end" in err
     assert cli("trial", "run", copy, "--resume") == (0, "1 cases diagnosed\n", "")
+
+
+def test_seconds_are_those_of_the_diagnosis(copy: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """And every recording is read twice: for its digest, and by the worker that sees that it is still so."""
+    (copy / "diagnoses/0002.json").unlink()
+    clock, hashed = [0.0], []
+    diagnose, load = mre_core.diagnose, Reading.load
+    digest_of = items.digest_of
+
+    def slowly(work: Callable[..., Any], seconds: float) -> Callable[..., Any]:
+        def does(*given: Any, **options: Any) -> Any:
+            clock[0] += seconds
+            return work(*given, **options)
+
+        return does
+
+    def noted(path: Path) -> str:
+        hashed.append(path.name)
+        return digest_of(path)
+
+    monkeypatch.setattr(time, "perf_counter", lambda: clock[0])
+    monkeypatch.setattr(Reading, "load", slowly(load, 100.0))
+    monkeypatch.setattr(sys.modules["mre_core.diagnose"], "diagnose", slowly(diagnose, 7.0))
+    for module in ("trial.run", "trial.files", "batches.work"):
+        monkeypatch.setattr(f"mre_core.{module}.digest_of", noted)
+    with ThreadPoolExecutor(1) as executor:
+        submit = executor.submit
+        executor.submit = lambda _, tasks, *rest: submit(list, map(work, tasks))  # type: ignore[assignment]
+        run_trial(copy, resume=True, executor=executor)
+    said = json.loads((copy / "diagnoses/0002.json").read_text(encoding="utf-8"))
+    assert said["seconds"] == 7.0
+    assert Counter(hashed) == {path.name: 2 for path in (copy / "recordings/0002").iterdir()}
+
+
+@pytest.mark.parametrize("what", ["run", "open"])
+def test_one_at_a_time(copy: Path, cli: Cli, what: str) -> None:
+    # Whatever stands in the folder of another run, it may be another thing the moment after.
+    (copy / "diagnoses/0002.json").unlink()
+    with alone_in(copy / "diagnoses"):
+        before = everything_in(copy)
+        status, out, err = cli("trial", what, copy)
+        assert everything_in(copy) == before
+    assert (status, out) == (2, "")
+    place = copy / "diagnoses"
+    assert err == f"mre-core: {place}: another process is at work there, wanted its end, or another folder\n"
+
+
+def test_what_ends_while_a_run_begins_is_seen(copy: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (copy / "diagnoses/0002.json").unlink()
+
+    @contextmanager
+    def after_another(place: Path) -> Iterator[None]:
+        """What had the folder ends just before it is given."""
+        (copy / "results.json").touch()
+        with alone_in(place):
+            yield
+
+    monkeypatch.setattr("mre_core.trial.run.alone_in", after_another)
+    with pytest.raises(mre_core.InputError, match="the trial was opened"):
+        run_trial(copy, resume=True, workers=1)
+
+
+@pytest.mark.parametrize("left", [[], ["0001.json"]])
+def test_what_is_refused_leaves_nothing(copy: Path, cli: Cli, left: list[str]) -> None:
+    shutil.rmtree(copy / "recordings/0002")
+    for file in (copy / "diagnoses").iterdir():
+        if file.name not in left:
+            file.unlink()
+    if not left:
+        (copy / "diagnoses").rmdir()
+    before = everything_in(copy)
+    for what in (["run", "--resume"], ["open"]):
+        assert cli("trial", what[0], copy, *what[1:])[0] == 2
+        assert everything_in(copy) == before
 
 
 def edit(path: Path, old: str, new: str) -> None:
@@ -232,6 +311,19 @@ def test_without_recordings_there_is_no_run(copy: Path, cli: Cli) -> None:
     status, _, err = cli("trial", "run", copy, "--resume")
     assert status == 2
     assert "case 0002 has no recordings" in err
+
+
+def test_a_recording_that_cannot_be_read(copy: Path, cli: Cli) -> None:
+    (copy / "diagnoses/0002.json").unlink()
+    odd = copy / "recordings/0002/03.csv"
+    odd.unlink()
+    odd.mkdir()
+    status, out, err = cli("trial", "run", copy, "--resume")
+    assert (status, out) == (2, "")
+    assert (
+        f"mre-core: {odd}: cannot be read: Is a directory, wanted recordings as 'trial make' wrote them\n"
+        == err
+    )
 
 
 @pytest.mark.parametrize("workers", ["1", "2"])

@@ -54,6 +54,8 @@ def texts(value: Iterable[str], name: str) -> tuple[str, ...]:
     ------
     TypeError
         Something among them is no text.
+    InputError
+        One holds half of a character.
     """
     if isinstance(value, str) or not isinstance(value, Iterable):
         value = (value,)
@@ -61,7 +63,27 @@ def texts(value: Iterable[str], name: str) -> tuple[str, ...]:
     for one in found:
         if not isinstance(one, str):
             raise TypeError(f"{name} holds {shown(one)}: wanted texts")
+        check_text(one, name)
     return found
+
+
+def check_text(value: object, name: str) -> None:
+    """Refuse what is no text that can be written.
+
+    Raises
+    ------
+    TypeError
+        It is no text at all.
+    InputError
+        It holds half of a character, as a text of Python may and no file can.
+    """
+    if not isinstance(value, str):
+        raise TypeError(f"{name} is {shown(value)}: wanted a text")
+    try:
+        value.encode()
+    except UnicodeEncodeError:
+        found = f"{name} is {shown(value)}: it holds half of a character, such as \\ud800"
+        raise InputError(found, wanted="text") from None
 
 
 def flag(value: object, name: str) -> bool:

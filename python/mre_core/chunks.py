@@ -7,6 +7,7 @@ from itertools import chain, islice
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
 
+from .checks import check_name
 from .columns import assumption, find_columns
 from .errors import InputError, UnitAssumedWarning
 from .files.cells import Cells, read_numbers
@@ -48,7 +49,8 @@ def read_chunks(
     Raises
     ------
     InputError
-        The file, a column, a unit or a cell is not usable; at the first chunk, or at the one it is in.
+        The file, its name, a column, a unit or a cell is not usable; at the first chunk, or at the one it is
+        in.
 
     Warns
     -----
@@ -57,6 +59,7 @@ def read_chunks(
     """
     if isinstance(rows, bool) or not isinstance(rows, int) or rows < 1:
         raise InputError(f"rows is {rows!r}", wanted="a whole number of at least 1")
+    check_name(path)
     file = str(path)
     try:
         with Path(path).open(encoding="utf-8-sig") as text:

@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ._core import Recording
+from .checks import check_text
 from .conditions import read_conditions
 from .files.table import Table
 from .frame import frame_headers, frame_numbers
@@ -46,13 +47,14 @@ def from_dataframe(
     Raises
     ------
     InputError
-        A column, a unit, a value or a condition is not usable. Rows are counted from 0.
+        The name, a column, a unit, a value or a condition is not usable. Rows are counted from 0.
 
     Warns
     -----
     UnitAssumedWarning
         A column states no unit, so the canonical one is taken.
     """
+    check_text(name, "name")
     source = f"recording '{name}'" if name else None
     fixed = read_conditions(conditions, file=source)
     table = _FrameTable(df, source)

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any, Self
 
 from . import _core
+from .checks import texts
 from .errors import InputError, mapping
 from .stored import number
 
@@ -33,6 +34,7 @@ class Effect:
     parameters: Mapping[str, float]
 
     def __post_init__(self) -> None:
+        texts((self.id, self.law), "id or law of an effect")
         if sorted(mapping("parameters", self.parameters, "name to number")) != sorted(self.units):
             found = ", ".join(self.parameters) or "none"
             raise InputError(

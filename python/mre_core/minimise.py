@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._core import Problem, Swarm
+from .checks import check_text
 from .errors import InputError, shown
 from .results import StopReason, SwarmResult, collect
 
@@ -72,6 +73,8 @@ def read_box(bounds: Bounds | None) -> Box:
     named = isinstance(bounds, Mapping)
     pairs = list(bounds.values()) if isinstance(bounds, Mapping) else list(bounds)
     names = [str(name) for name in bounds] if named else [f"x[{i}]" for i in range(len(pairs))]
+    for name in names:
+        check_text(name, "a name of bounds")
     if any(np.ma.is_masked(pair) for pair in pairs):
         raise InputError("bounds are masked", wanted="a pair (lower, upper) for each parameter")
     try:

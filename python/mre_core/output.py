@@ -28,7 +28,11 @@ class Stage:
 
     def write_json(self, name: str, content: Any) -> None:
         """Write a JSON file; numbers that are not finite become null."""
-        self.path(name).write_text(to_json(content), encoding="utf-8")
+        self.write_text(name, to_json(content))
+
+    def write_text(self, name: str, content: str) -> None:
+        """Write a text in UTF-8."""
+        self.path(name).write_text(content, encoding="utf-8")
 
 
 def to_json(content: Any) -> str:
@@ -107,6 +111,11 @@ def write_file(path: str | os.PathLike[str], write: Callable[[Path], None]) -> N
 def _prepared(target: Path, made: list[Path]) -> Path:
     if "\0" in str(target):
         raise InputError("its name holds a null byte", file=str(target), wanted="a folder to write to")
+    try:
+        os.fsencode(target)
+    except UnicodeEncodeError:
+        problem = "its name holds half of a character, such as \\ud800"
+        raise InputError(problem, file=str(target), wanted="a folder to write to") from None
     for folder in [*reversed(target.parents), target]:
         if not folder.exists():
             folder.mkdir()

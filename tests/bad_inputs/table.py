@@ -8,6 +8,7 @@ from .campaigns import CAMPAIGNS
 from .configs import CONFIGS
 from .files import FILES
 from .frames import FRAMES
+from .halves import HALVES
 from .jobs import JOBS
 from .loading import LOADING
 from .made import Call, Command
@@ -31,6 +32,7 @@ GROUPS: Mapping[str, Mapping[str, Command | Call]] = {
     "Places to write to": PLACES,
     "Functions of Python": CALLED,
     "Long work from Python": JOBS,
+    "Texts with half of a character": HALVES,
 }
 
 ROWS = {f"{kind} ({title})": row for title, rows in GROUPS.items() for kind, row in rows.items()}

@@ -3,7 +3,7 @@
 import json
 import sqlite3
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Self
@@ -145,24 +145,34 @@ def journal_in(out: Path) -> Iterator[Journal]:
 
 @contextmanager
 def alone_in(out: Path) -> Iterator[None]:
-    """Make a folder if need be, and keep other batches out of it.
+    """Make a folder if need be, and keep other processes out of it.
+
+    When the block fails, a lock that was made for it goes again, and so does the folder if it is empty then.
 
     Raises
     ------
     InputError
-        Another one is at work there, or it cannot be written.
+        Another process is at work there, or it cannot be written.
     """
     from filelock import FileLock, Timeout
 
+    made = [path for path in (out / LOCK, out) if not path.exists()]
     try:
         out.mkdir(parents=True, exist_ok=True)
         lock = FileLock(out / LOCK, timeout=0)
         lock.acquire()
     except Timeout:
-        problem = "another batch is at work there"
+        problem = "another process is at work there"
         raise InputError(problem, file=str(out), wanted="its end, or another folder") from None
     except OSError as error:
         problem = f"cannot be written: {error.strerror or error}"
         raise InputError(problem, file=str(out), wanted="a folder to write to") from None
     with lock:
-        yield
+        try:
+            yield
+        except BaseException:
+            with suppress(OSError):  # something else is in the folder
+                for path in made:
+                    remove = path.rmdir if path == out else path.unlink
+                    remove()
+            raise

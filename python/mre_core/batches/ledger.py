@@ -113,7 +113,7 @@ class Ledger:
         if models:
             with staged(out / MODELS) as stage:
                 for file, content in models.items():
-                    stage.path(file).write_text(content, encoding="utf-8")
+                    stage.write_text(file, content)
         with staged(out) as stage:
             to_table(rows).to_parquet(stage.path(RESULTS), index=False)
 

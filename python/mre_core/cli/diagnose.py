@@ -108,7 +108,7 @@ def _write(stage: "Stage", found: "Diagnosis") -> None:
     stage.write_json("base_model.json", found.base_model.to_dict())
     stage.write_json("model.json", found.model.to_dict())
     _write_residuals(stage.path("residuals.csv"), found.histories)
-    stage.path("report.html").write_text(report_diagnosis(found), encoding="utf-8")
+    stage.write_text("report.html", report_diagnosis(found))
 
 
 def _write_residuals(path: Path, histories: "tuple[History, ...]") -> None:

@@ -130,7 +130,7 @@ def _write(stage: Any, found: Any, more: Any, loaded: list[Any], *, figures: boo
     stage.write_json("model.json", found.model.to_dict() | {"interrupted": found.interrupted})
     stage.write_json("identification.json", describe(found, *more))
     page = report_identification(found, loaded, *more)
-    stage.path("report.html").write_text(page, encoding="utf-8")
+    stage.write_text("report.html", page)
     if not figures:
         return
     from ..plots import plot_fit, save

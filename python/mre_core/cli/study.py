@@ -84,7 +84,7 @@ def _write(stage: "Stage", found: "Study") -> None:
 
     stage.write_json("study.json", found.to_dict())
     stage.write_json("times.json", found.times())
-    stage.path("study.html").write_text(page(found), encoding="utf-8")
+    stage.write_text("study.html", page(found))
     for section in found.sections:
         for stem, figure in section.figures.items():
             write_svg(figure, stage.path(f"{stem}.svg"), stem)

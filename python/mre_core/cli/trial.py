@@ -94,9 +94,9 @@ def open_(folder: Path, answers: Path | None, seal: str | None, as_json: bool, t
     found = open_trial(folder, answers=answers, seal=seal)
     if tables is not None:
         with staged(tables) as stage:
-            stage.path("seal.md").write_text(f"{found}\n", encoding="utf-8")
+            stage.write_text("seal.md", f"{found}\n")
             for sheet in found.sheets:
-                stage.path(f"{sheet.name}.md").write_text(sheet.markdown(), encoding="utf-8")
+                stage.write_text(f"{sheet.name}.md", sheet.markdown())
     if as_json:
         click.echo((folder / "results.json").read_text(encoding="utf-8"), nl=False)
     else:

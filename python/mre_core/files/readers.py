@@ -12,6 +12,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Final
 
+from ..checks import is_text
 from ..errors import InputError
 from .limits import check_file
 from .options import ReadOptions
@@ -108,6 +109,8 @@ def _check_once(files: Iterable[Path]) -> None:
     """Refuse a file that is named twice: it would count as more than was measured."""
     seen: dict[str, Path] = {}
     for file in files:
+        if not is_text(str(file)):  # which is refused when it is read
+            continue
         place = os.path.realpath(file)  # which a link to itself has, too
         if other := seen.get(place):
             also = "" if other == file else f", also as {other}"

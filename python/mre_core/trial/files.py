@@ -3,11 +3,13 @@
 import hashlib
 import os
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from .._core import models
+from ..batches.items import digest_of
 from ..errors import InputError, shown
 from ..stored import conform, read_json
 from .shapes import CASES
@@ -120,10 +122,25 @@ def digest(paths: list[Path]) -> str:
     str
         64 hexadecimal digits.
     """
+    return digest_of_named({path.name: digest_of(path) for path in paths})
+
+
+def digest_of_named(digests: Mapping[str, str]) -> str:
+    """`digest` of files whose own are known.
+
+    Parameters
+    ----------
+    digests : mapping of str to str
+        Name of a file to the SHA-256 of its content.
+
+    Returns
+    -------
+    str
+        64 hexadecimal digits.
+    """
     found = hashlib.sha256()
-    for path in sorted(paths):
-        found.update(path.name.encode() + b"\0")
-        found.update(hashlib.sha256(path.read_bytes()).digest())
+    for name in sorted(digests):
+        found.update(name.encode() + b"\0" + bytes.fromhex(digests[name]))
     return found.hexdigest()
 
 

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from .._core import __version__
+from ..batches.journal import alone_in
 from ..errors import InputError, listed
 from ..output import staged
 from ..stored import conform
@@ -71,13 +72,22 @@ def open_trial(
     Raises
     ------
     InputError
-        No run, or not of every case; the seal is broken; answers, recordings or cases are not those that
-        were made.
+        No run, not of every case, or one that is at work; the seal is broken; answers, recordings or cases
+        are not those that were made.
     """
     folder = Folder(Path(directory))
     cases, stated = folder.cases(), str(folder.stated("seal"))
     place = Path(answers) if answers is not None else folder.answers
     wanted = _agreed(folder, stated, seal)
+    with alone_in(folder.diagnoses):  # no run goes on while they are compared, and none begins
+        opened = _compared(folder, cases, place, wanted)
+        with staged(folder.root) as stage:
+            stage.write_json("results.json", opened.to_dict())
+    return opened
+
+
+def _compared(folder: Folder, cases: dict[str, str], place: Path, wanted: str) -> Opening:
+    """Compare every diagnosis with its answer, of which `wanted` is the seal."""
     _check_run(folder, cases)
     if not os.path.isfile(place):
         raise InputError(
@@ -120,10 +130,7 @@ def open_trial(
                 file=str(place),
                 wanted="answers as 'trial make' wrote them",
             ) from None
-    result = Opening(wanted, told["seed"], tuple(opened))
-    with staged(folder.root) as stage:
-        stage.write_json("results.json", result.to_dict())
-    return result
+    return Opening(wanted, told["seed"], tuple(opened))
 
 
 def _said(file: Path) -> dict[str, Any]:

@@ -1,7 +1,8 @@
 """Diagnose the recordings of a trial, which is all that is read of it."""
 
 import os
-from collections.abc import Callable
+import time
+from collections.abc import Callable, Collection, Mapping
 from concurrent.futures import Executor
 from pathlib import Path
 from typing import Any
@@ -17,7 +18,7 @@ from ..checks import check_listener, flag
 from ..checks import workers as worker_count
 from ..errors import InputError
 from ..output import staged
-from .files import DIAGNOSIS, Folder, digest, read
+from .files import DIAGNOSIS, Folder, digest_of_named, read
 
 
 def run_trial(
@@ -66,6 +67,41 @@ def run_trial(
     check_listener(on_done, "on_done")
     folder = Folder(Path(directory))
     cases = folder.cases()
+    with alone_in(folder.diagnoses):  # before looking at what is done, which another run or 'open' may change
+        done = _done(folder, cases, resume)
+        if on_done is not None:
+            on_done(len(done), len(cases))
+        settings = {base: Settings.of(None, base, Reading(), {}, None) for base in set(cases.values())}
+        digests = {case: _digests(folder.recordings(case)) for case in cases if case not in done}
+        left = [_task(folder, case, digests[case], settings[cases[case]]) for case in digests]
+        failed: list[Outcome] = []
+
+        def take(outcomes: list[Outcome]) -> None:
+            for outcome in outcomes:
+                if not outcome.lasting:
+                    failed.append(outcome)
+                    continue
+                read_from = digest_of_named(digests[outcome.item])
+                found = {"schema": DIAGNOSIS, "case": outcome.item, "recordings_sha256": read_from}
+                row = outcome.row or {"error": outcome.error, "seconds": outcome.seconds}
+                found |= {key: row[key] for key in ("diagnosis", "error", "seconds") if key in row}
+                with staged(folder.diagnoses) as stage:
+                    stage.write_json(f"{outcome.item}.json", found)
+                done.append(outcome.item)
+            if on_done is not None:
+                on_done(len(done), len(cases))
+
+        with chosen_engine(workers, 1, cluster, executor, folder.root) as engine:
+            drive(left, engine, None, take)
+    if failed:
+        first = f"case {failed[0].item}: {failed[0].error}"
+        problem = f"{len(failed)} of {len(cases)} cases were not diagnosed ({first})"
+        raise InputError(problem, file=str(folder.root), wanted="--resume to try them again")
+    return len(left)
+
+
+def _done(folder: Folder, cases: Collection[str], resume: bool) -> list[str]:
+    """List the cases that have a diagnosis, where a run may begin or go on."""
     if folder.results.exists():
         raise InputError(
             "the trial was opened: a run that knows the answers shows nothing",
@@ -84,47 +120,31 @@ def run_trial(
     for case in cases:
         if not folder.recordings(case):
             raise InputError(f"case {case} has no recordings", file=str(folder.root), wanted="CSV files")
-    if on_done is not None:
-        on_done(len(done), len(cases))
-    settings = {base: Settings.of(None, base, Reading(), {}, None) for base in set(cases.values())}
-    left = {case: _task(folder, case, settings[base]) for case, base in cases.items() if case not in done}
-    sums = {case: digest(folder.recordings(case)) for case in left}
-    failed: list[Outcome] = []
-
-    def take(outcomes: list[Outcome]) -> None:
-        for outcome in outcomes:
-            if not outcome.lasting:
-                failed.append(outcome)
-                continue
-            found = {"schema": DIAGNOSIS, "case": outcome.item, "recordings_sha256": sums[outcome.item]}
-            found |= {"error": outcome.error} if outcome.error else {"diagnosis": outcome.row["diagnosis"]}
-            with staged(folder.diagnoses) as stage:
-                stage.write_json(f"{outcome.item}.json", found | {"seconds": outcome.seconds})
-            done.append(outcome.item)
-        if on_done is not None:
-            on_done(len(done), len(cases))
-
-    with (
-        chosen_engine(workers, 1, cluster, executor, folder.root) as engine,
-        alone_in(folder.diagnoses),
-    ):
-        drive(list(left.values()), engine, None, take)
-    if failed:
-        first = f"case {failed[0].item}: {failed[0].error}"
-        problem = f"{len(failed)} of {len(cases)} cases were not diagnosed ({first})"
-        raise InputError(problem, file=str(folder.root), wanted="--resume to try them again")
-    return len(left)
+    return done
 
 
-def _task(folder: Folder, case: str, settings: Settings) -> Task:
-    files = [path.resolve() for path in folder.recordings(case)]
-    content = digest_of_all([digest_of(file) for file in files])
-    return Task(case, tuple(map(str, files)), content, 1, settings, _diagnosis)
+def _digests(files: list[Path]) -> dict[str, str]:
+    found = {}
+    for file in files:
+        try:
+            found[file.name] = digest_of(file)
+        except OSError as error:
+            problem = f"cannot be read: {error.strerror or error}"
+            raise InputError(
+                problem, file=str(file), wanted="recordings as 'trial make' wrote them"
+            ) from None
+    return found
+
+
+def _task(folder: Folder, case: str, digests: Mapping[str, str], settings: Settings) -> Task:
+    files = tuple(str(path.resolve()) for path in folder.recordings(case))
+    return Task(case, files, digest_of_all(list(digests.values())), 1, settings, _diagnosis)
 
 
 def _diagnosis(recordings: list[Recording], task: Task) -> tuple[dict[str, Any], None]:
     """Diagnose one case: all of what is found, where a batch keeps a row of it."""
     from ..diagnose import diagnose
 
+    begin = time.perf_counter()  # files are read, and modules imported
     found = diagnose(recordings, task.settings.given_model(), seed=task.seed, threads=task.threads)
-    return {"diagnosis": found.to_dict()}, None
+    return {"diagnosis": found.to_dict(), "seconds": time.perf_counter() - begin}, None
