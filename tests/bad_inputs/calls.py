@@ -76,6 +76,10 @@ CALLED = {
         "'fishes'",
     ),
     "swarm: a count that is a fraction": typed(swarm([], n_fish=1.5).call, "n_fish is 1.5", "a whole number"),
+    "swarm: a number for a text": typed(swarm([], search=3).call, "search is 3", "a text"),
+    "stream: a stroke of 400 digits": typed(
+        lambda: mre_core.Problem.streamed([], 10**400), "largest_displacement", "too many digits"
+    ),
     "swarm: a problem that is none": typed(lambda: mre_core.mafsa(3), "problem is a int"),
     "function: no bounds": function(cost, ["bounds are missing", "(lower, upper)"], None),
     "function: bounds reversed": function(cost, ["x[0]", "1"], [(1, 0)]),

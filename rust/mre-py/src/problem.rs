@@ -14,7 +14,7 @@ use crate::bounds::by_name;
 use crate::error::{setting, to_python};
 use crate::recording::Recording;
 use crate::run::{Link, here, in_pool};
-use crate::scalars::Whole;
+use crate::scalars::{Number, Whole};
 use crate::stream;
 
 /// Fitness of a model's parameters on recordings: eq. 5 of Yu, Li and Li (ISARC 2014); immutable.
@@ -117,11 +117,11 @@ impl Problem {
     fn streamed(
         py: Python<'_>,
         chunks: &Bound<'_, PyAny>,
-        largest_displacement: f64,
+        largest_displacement: Number,
         bounds: Option<&Bound<'_, PyAny>>,
         threads: Option<Whole>,
     ) -> PyResult<Self> {
-        let core = stream::read(py, chunks, largest_displacement, &by_name(bounds)?, threads)?;
+        let core = stream::read(py, chunks, largest_displacement.0, &by_name(bounds)?, threads)?;
         Ok(Self { inner: Arc::new(core), recordings: Vec::new() })
     }
 
@@ -190,9 +190,19 @@ impl Problem {
 
     /// Levels of current and the model's parameters at them, for one candidate.
     #[pyo3(signature = (x, current=None))]
-    fn levels(&self, x: &Bound<'_, PyAny>, current: Option<f64>) -> PyResult<Vec<(Option<f64>, Vec<f64>)>> {
+    fn levels(
+        &self,
+        x: &Bound<'_, PyAny>,
+        current: Option<Number>,
+    ) -> PyResult<Vec<(Option<f64>, Vec<f64>)>> {
         let (row, _) = array::rows("x", x, self.inner.parameters().len())?;
-        Ok(self.inner.law().levels(&row, current).into_iter().map(|l| (l.current, l.values)).collect())
+        Ok(self
+            .inner
+            .law()
+            .levels(&row, current.map(|i| i.0))
+            .into_iter()
+            .map(|l| (l.current, l.values))
+            .collect())
     }
 
     /// -1, 0 or 1 for every parameter: on its lower bound, inside, on its upper bound.

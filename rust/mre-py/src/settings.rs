@@ -33,8 +33,8 @@ where
 {
     match settings.get_item(name)? {
         Some(value) => value.extract::<T>().map_err(|_| {
-            if value.is_instance_of::<PyInt>() {
-                return setting(name, quoted(&value), "a smaller number"); // an integer beyond 64 bits
+            if value.is_instance_of::<PyInt>() && value.extract::<i64>().is_err() {
+                return setting(name, quoted(&value), "a smaller number");
             }
             of_type(&format!("{name} is {}: wanted {wanted}", quoted(&value)))
         }),
