@@ -10,6 +10,7 @@ use crate::error::{of_type, quoted};
 pub(crate) struct Whole(pub(crate) i64);
 
 /// A number.
+#[derive(Clone, Copy)]
 pub(crate) struct Number(pub(crate) f64);
 
 impl<'py> FromPyObject<'_, 'py> for Whole {
