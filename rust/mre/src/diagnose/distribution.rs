@@ -3,6 +3,10 @@
 use rand_chacha::ChaCha8Rng;
 use rand_core::Rng;
 
+/// Tests that decide count a gain this much less: the noise was estimated from the same residuals, and far out in the
+/// tail that makes chance gains larger.
+pub(super) const CAUTION: f64 = 1.1;
+
 /// `P(X > x)` of a chi-square variable.
 pub(super) fn chi_square_tail(x: f64, freedom: usize) -> f64 {
     upper_gamma(0.5 * freedom as f64, 0.5 * x)

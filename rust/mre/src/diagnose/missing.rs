@@ -3,7 +3,7 @@
 
 use nalgebra::DVector;
 
-use super::distribution::chi_square_tail;
+use super::distribution::{CAUTION, chi_square_tail};
 use super::features::{On, features};
 use super::null::Null;
 use crate::effect::Scene;
@@ -17,8 +17,8 @@ const MOST_RECORDINGS: usize = 24;
 const STRETCHES: usize = 6;
 /// The same where it does so in each recording on its own.
 const OWN_STRETCHES: usize = 8;
-/// Caution for so many columns, under a noise that was estimated: their gain counts this much less.
-const CAUTION: f64 = 1.25;
+/// So many columns of their own find more in a noise that was estimated: their gain counts this much less.
+const MORE_CAUTION: f64 = 1.25;
 
 /// A stiffness that comes and goes: at the end of every stretch but the last.
 fn passing(scene: &Scene) -> impl Iterator<Item = Vec<f64>> {
@@ -50,6 +50,11 @@ impl Mismatch {
     fn new(gain: f64, freedom: usize) -> Self {
         let p_value = if freedom == 0 { 1.0 } else { chi_square_tail(gain, freedom) };
         Self { p_value, gain, freedom }
+    }
+
+    /// The same chance for a decision.
+    pub(super) fn cautious(&self) -> f64 {
+        Self::new(self.gain / CAUTION, self.freedom).p_value
     }
 
     /// Squared standard deviations that the features take off, beyond what noise gives.
@@ -148,7 +153,7 @@ impl Null<'_> {
         });
         let all: Vec<usize> = (0..each * recordings).collect();
         let Mismatch { gain, freedom, .. } = Projected::of(&gram, &right, &squares, &all).mismatch();
-        Mismatch::new(gain / CAUTION, freedom)
+        Mismatch::new(gain / MORE_CAUTION, freedom)
     }
 
     /// Project the features.

@@ -8,6 +8,7 @@
 use nalgebra::DVector;
 
 use super::block::{Block, SMALLEST_SHARE, correction};
+use super::distribution::CAUTION;
 use super::null::Null;
 use crate::assembly::Assembly;
 use crate::effect::Effect;
@@ -78,7 +79,7 @@ impl Null<'_> {
         let part = |v: &DVector<f64>, s: usize| v.rows(s * width, width).into_owned();
         let gains: Vec<f64> = (0..starts.len()).map(|s| blocks[s].gain(&part(&right, s))).collect();
         let (best, gain) = gains.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
-        let smallest = (0..starts.len()).map(|s| blocks[s].tail(gains[s])).fold(1.0, f64::min);
+        let smallest = (0..starts.len()).map(|s| blocks[s].tail(gains[s] / CAUTION)).fold(1.0, f64::min);
         let correction = correction(&gram, &blocks, width, seed);
         let trace = (0..raw.len())
             .filter(|i| raw[*i] > 0.0)

@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use super::distribution::chi_square_tail;
+use super::distribution::{CAUTION, chi_square_tail};
 use super::null::Null;
 use crate::effect::Scene;
 
@@ -47,7 +47,7 @@ pub(super) fn best(null: &Null, rows: usize) -> Unnamed {
     let (mut smallest, mut tests, mut most) = (1.0_f64, 0.0, 0.0_f64);
     let mut heard = |gain: f64| {
         tests += 1.0;
-        smallest = smallest.min(chi_square_tail(gain, 1));
+        smallest = smallest.min(chi_square_tail(gain / CAUTION, 1));
     };
     for (term, odd) in TERMS {
         let of = |i: usize, scene: &Scene| {

@@ -87,7 +87,7 @@ impl Evidence {
         let Tests { first, rest, smooth, wandering, explained, change, surpassed } = *tests;
         let catalogue = by_effect(&named.scores);
         let holm = catalogue.iter().map(|(_, p)| *p).fold(1.0, f64::min) * catalogue.len() as f64;
-        let any = OF_ANY * rest.p_value.min(smooth).min(wandering.p_value);
+        let any = OF_ANY * rest.cautious().min(smooth).min(wandering.p_value);
         let p_rest = (WAYS * any.min(holm)).min(1.0);
         let gain = named.next.as_ref().map_or(0.0, |n| (named.fitted.left - n.fitted.left).max(0.0));
         let left = rest.excess().max(wandering.excess()).max(gain);
