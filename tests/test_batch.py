@@ -326,6 +326,22 @@ def test_a_process_that_is_only_starting_holds_nobody_up(
             item.result(timeout=60)
 
 
+def test_a_batch_that_ends_between_the_start_of_a_process_and_its_item(
+    five: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    child = Child()
+    start = child._started
+
+    def started_and_closed() -> Any:
+        process = start()
+        child.close()
+        return process
+
+    monkeypatch.setattr(child, "_started", started_and_closed)
+    with pytest.raises(RuntimeError, match="the batch has ended"):
+        child.run(task_of(five), None)
+
+
 def test_a_file_that_changes_while_it_is_read(tmp_path: Path) -> None:
     folder = recordings(tmp_path / "in", 1)
     task = task_of(folder)

@@ -48,15 +48,18 @@ class Child:
             timer.daemon = True
             if budget is not None:
                 timer.start()
+            assert process.stdin is not None
+            assert process.stdout is not None
             try:
-                assert process.stdin is not None
-                assert process.stdout is not None
                 pickle.dump(task, process.stdin)
                 process.stdin.flush()
                 outcome: Outcome = pickle.load(process.stdout)
                 return outcome
             except (EOFError, pickle.UnpicklingError, OSError):
                 pass
+            except ValueError:
+                if not process.stdin.closed:  # who closes may do so between the start and the item
+                    raise
             finally:
                 timer.cancel()
             spent += time.perf_counter() - begin
