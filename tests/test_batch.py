@@ -229,7 +229,8 @@ def test_interrupted_batch_is_whole(tmp_path: Path) -> None:
     out = tmp_path / "out"
     arguments: Arguments = ["batch", folder, "--model", "sinh", "--out", out, "--no-figures"]
     run = run_process(*arguments, before=STRIKE.format(moment="after", signal="SIGINT"))
-    assert (run.returncode, run.stderr.strip()) == (130, "mre-core: interrupted")
+    said = "mre-core: interrupted: the same command goes on where it was"
+    assert (run.returncode, run.stderr.strip()) == (130, said)
     table = mre_core.read_results(out)
     assert 3 <= len(table) < 12
     assert set(table["status"]) == {"done"}

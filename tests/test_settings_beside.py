@@ -88,7 +88,7 @@ def test_a_run_of_a_trial_is_repeated(cli: Cli, tmp_path: Path, sinh_csv: Path) 
     shutil.copy(sinh_csv, place / "01.csv")
     content = {"schema": "mre-core/trial/1", "seal": "0" * 64, "cases": [{"id": "0001", "base": "sinh"}]}
     (folder / "trial.json").write_text(json.dumps(content), encoding="utf-8")
-    done = (0, "1 cases diagnosed\n", "")
+    done = (0, "1 case diagnosed\n", "")
     assert cli("trial", "run", folder, "--workers", "1", "--quiet") == done
     file = folder / "run.settings.toml"
     assert settings_of(file) == {"trial_run": {"folder": ".", "workers": 1, "quiet": True}}

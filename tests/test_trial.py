@@ -109,10 +109,24 @@ def test_a_run_goes_on_where_it_stopped(copy: Path, cli: Cli) -> None:
     status, out, err = cli("trial", "run", copy)
     assert (status, out) == (2, "")
     assert "1 of 2 cases have a diagnosis, wanted --resume" in err
-    assert cli("trial", "run", copy, "--resume", "--workers", "1") == (0, "1 cases diagnosed\n", "")
+    assert cli("trial", "run", copy, "--resume", "--workers", "1") == (0, "1 case diagnosed\n", "")
     assert (copy / "diagnoses/0001.json").read_bytes() == first
     after = json.loads((copy / "diagnoses/0002.json").read_text(encoding="utf-8"))
     assert after["diagnosis"] == before["diagnosis"]
+
+
+def test_a_run_that_is_stopped_says_how_it_goes_on(
+    copy: Path, cli: Cli, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (copy / "diagnoses/0002.json").unlink()
+
+    def stopped(*given: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("mre_core.trial.run.drive", stopped)
+    status, out, err = cli("trial", "run", copy, "--resume")
+    # A terminal has shown ^C: click ends that line.
+    assert (status, out, err) == (130, "", "\nmre-core: interrupted: --resume goes on where it was\n")
 
 
 def test_a_diagnosis_that_fails_is_an_outcome(made: tuple[Path, str], tmp_path: Path) -> None:
@@ -149,7 +163,7 @@ def test_cases_that_another_attempt_may_do_are_told(copy: Path, cli: Cli) -> Non
         status, out, err = cli("trial", "run", copy, "--resume")
     assert (status, out) == (2, "")
     assert "another process is at work there, wanted its end" in err
-    assert cli("trial", "run", copy, "--resume") == (0, "1 cases diagnosed\n", "")
+    assert cli("trial", "run", copy, "--resume") == (0, "1 case diagnosed\n", "")
 
 
 def test_seconds_are_those_of_the_diagnosis(copy: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -343,7 +357,7 @@ def test_ctrl_c_leaves_whole_files(tmp_path: Path, workers: str) -> None:
     running.send_signal(signal.SIGINT)
     out, err = running.communicate(timeout=60)
     assert running.returncode == 130, err
-    assert (out, err.strip()) == ("", "mre-core: interrupted")
+    assert (out, err.strip()) == ("", "mre-core: interrupted: --resume goes on where it was")
     assert {path.name for path in (folder / "diagnoses").iterdir()} <= {"batch.lock"} | {
         f"000{i}.json" for i in range(1, 5)
     }

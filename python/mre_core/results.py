@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ._core import Problem, Swarm
 from .certificate import Certificate
+from .words import number_of
 
 if TYPE_CHECKING:
     from .uncertainty import Uncertainty
@@ -136,7 +137,7 @@ class SwarmResult:
         if self.certificate is not None:
             rows.append(f"  {self.certificate}")
         rows.append(
-            f"  {self.n_iterations} iterations, {self.n_evaluations} evaluations"
+            f"  {number_of(self.n_iterations, 'iteration')}, {number_of(self.n_evaluations, 'evaluation')}"
             f" ({self.n_failures} failed), stopped by {self.reason}, seed {self.seed}"
         )
         return "\n".join(rows)

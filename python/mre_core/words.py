@@ -199,6 +199,11 @@ def interval(low: float | None, high: float | None) -> str:
     return " to ".join("?" if end is None else f"{end:.4g}" for end in (low, high))
 
 
+def number_of(count: int, thing: str) -> str:
+    """Count things as in a sentence: ``1 case``, ``2 cases``."""
+    return f"{count} {thing}" if count == 1 else f"{count} {thing}s"
+
+
 def listed(names: Sequence[str]) -> str:
     """List names as in a sentence."""
     return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}" if names else ""

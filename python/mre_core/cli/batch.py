@@ -82,6 +82,7 @@ def batch(
     from ..batches import batch as run
     from ..files import ReadOptions
     from ..output import staged
+    from .interrupts import going_on
     from .progress import counter
     from .settings import write_settings
 
@@ -90,7 +91,7 @@ def batch(
     )
     options["n_particles" if options["optimizer"] == "pso" else "n_fish"] = fish
     options |= {"max_iterations": iterations, "fixed": fixed or None}
-    with counter("batch", quiet=quiet) as on_progress:
+    with going_on("the same command goes on where it was"), counter("batch", quiet=quiet) as on_progress:
         results = run(
             folder,
             out,

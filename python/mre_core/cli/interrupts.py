@@ -34,6 +34,15 @@ class Interrupts:
 
 
 @contextmanager
+def going_on(how: str) -> Iterator[None]:
+    """Say with an interruption of the block how its work goes on."""
+    try:
+        yield
+    except KeyboardInterrupt:
+        raise KeyboardInterrupt(how) from None
+
+
+@contextmanager
 def interrupts() -> Iterator[Interrupts]:
     """Answer both signals alike while the block runs; one that the process ignores stays ignored.
 

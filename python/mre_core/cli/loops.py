@@ -131,6 +131,7 @@ def _print(tables: "Sequence[LoopTable]") -> None:
     from rich.table import Table
 
     from ..loops import CONVENTIONS, QUANTITIES
+    from ..words import number_of
     from .escape import escape
     from .show import console
 
@@ -139,7 +140,7 @@ def _print(tables: "Sequence[LoopTable]") -> None:
         count = len(found.measured)
         current = "" if found.current is None else f", {found.current:g} A"
         table = Table(
-            title=f"{escape(found.recording)}{current}: {count} closed cycle{'s' if count > 1 else ''} of"
+            title=f"{escape(found.recording)}{current}: {number_of(count, 'closed cycle')} of"
             f" {found.mean('amplitude'):.4g} mm at {found.mean('frequency'):.4g} Hz",
             title_justify="left",
         )

@@ -126,12 +126,18 @@ def _run(given: list[str]) -> int:
         if "null byte" not in str(error):
             return _unforeseen(error)
         return _fail("a file name holds a null byte: wanted a name without", 2)
-    except (KeyboardInterrupt, click.Abort):
-        return _fail("interrupted", 130)
+    except (KeyboardInterrupt, click.Abort) as stop:
+        return _fail(_interrupted(stop), 130)
     except OSError:  # of the output: a file's has its name by now
         raise
     except Exception as error:
         return _fail("interrupted", 130) if signals.came else _unforeseen(error)
+
+
+def _interrupted(stop: BaseException) -> str:
+    """Say that a command was stopped, and how it goes on where it said so."""
+    first = stop.__cause__ if isinstance(stop, click.Abort) else stop
+    return ": ".join(["interrupted", *(str(how) for how in getattr(first, "args", ()))])
 
 
 def _missing(error: click.MissingParameter) -> str:

@@ -97,6 +97,8 @@ def print_identification(
     """Tables of the parameters and of the fit; profiles and bootstraps are one a run, or none."""
     from rich.table import Table
 
+    from ..words import number_of
+
     out = console()
     for i, (run, level) in enumerate(zip(found.runs, _titles(found), strict=True)):
         intervals = _intervals(run, profiles[i] if profiles else (), bootstraps[i] if bootstraps else None)
@@ -114,7 +116,7 @@ def print_identification(
         gap = "" if run.gap is None else f", {100 * run.gap:.2g} % above the best known optimum"
         table.caption = (
             f"fitness {run.fitness:.6g} {run.unit} (rms {run.rms:.4g} N){gap},"
-            f" {run.n_evaluations} evaluations ({run.n_failures} failed),"
+            f" {number_of(run.n_evaluations, 'evaluation')} ({run.n_failures} failed),"
             f" stopped by {run.reason}, seed {run.seed}"
         )
         out.print(table)

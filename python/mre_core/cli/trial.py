@@ -67,14 +67,16 @@ def run(folder: Path, resume: bool, workers: int | None, cluster: str | None, qu
     """Diagnose the recordings in DIR. The answers are not read and need not be there."""
     from ..output import staged
     from ..trial import run_trial
+    from ..words import number_of
+    from .interrupts import going_on
     from .progress import counted
     from .settings import write_settings
 
-    with counted("diagnosing", quiet=quiet) as advance:
+    with going_on("--resume goes on where it was"), counted("diagnosing", quiet=quiet) as advance:
         done = run_trial(folder, resume=resume, workers=workers, cluster=cluster, on_done=advance)
     with staged(folder) as stage:
         write_settings(stage, folder, "run.settings.toml")
-    click.echo(f"{done} cases diagnosed")
+    click.echo(f"{number_of(done, 'case')} diagnosed")
 
 
 @trial.command("open")
