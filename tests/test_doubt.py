@@ -1,6 +1,7 @@
 """What a diagnosis admits: physics of no catalogue, effects ruled out, and what to test next."""
 
 from pathlib import Path
+from typing import Any
 
 import mre_core
 import numpy as np
@@ -80,7 +81,8 @@ def test_the_command_keeps_its_limits(one_frequency: mre_core.Diagnosis) -> None
     assert np.abs(signal.displacement).max() <= 1.5 + 1e-9
     assert np.abs(np.diff(signal.displacement) / np.diff(signal.time)).max() <= 10 + 1e-6
     assert signal.time[-1] == pytest.approx(20.0, abs=0.02)
-    for wrong in ({"stroke": -1.0}, {"rate": 1.0}, {"duration": 0.01}):
+    refused: list[dict[str, Any]] = [{"stroke": -1.0}, {"rate": 1.0}, {"duration": 0.01}, {"current": (2, 1)}]
+    for wrong in refused:
         with pytest.raises(InputError):
             command(one_frequency.next_test, **wrong)
 

@@ -47,6 +47,14 @@ def test_json_of_an_identification(cli: Cli, tmp_path: Path, sinh_csv: Path) -> 
     assert json.loads(out) == json.loads((tmp_path / "r" / "identification.json").read_text())
 
 
+def test_quiet_work_says_nothing(cli: Cli, tmp_path: Path, sinh_csv: Path) -> None:
+    assert cli("demo", "--iterations", "1", "--quiet") == (0, "", "")
+    out = tmp_path / "study"
+    own = ("--recordings", sinh_csv, "--set", "current=1[A]")
+    assert cli("study", "--quick", *own, "--quiet", "--out", out) == (0, "", "")
+    assert (out / "study.json").exists()
+
+
 @pytest.mark.parametrize(
     "command",
     [

@@ -6,9 +6,10 @@ import tomllib
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from rig import SINH, Cli, made_of
 
-PROPOSAL = {
+PROPOSAL: dict[str, Any] = {
     "excitation": "sweep",
     "why": "it tells them apart",
     "limits": {
@@ -40,7 +41,7 @@ def test_a_simulation_is_repeated(cli: Cli, tmp_path: Path, sinh_csv: Path) -> N
     }
     first = out.read_bytes()
     out.unlink()
-    assert cli("simulate", "--config", file) == (0, "", "")
+    assert cli("simulate", "--config", file, "--seed", "1", "--quiet") == (0, "", "")
     assert out.read_bytes() == first
 
 
@@ -67,6 +68,21 @@ def test_a_command_signal_is_repeated(cli: Cli, tmp_path: Path) -> None:
     out.unlink()
     assert cli("next-test", "--config", file) == (0, "", "")
     assert out.read_bytes() == first
+
+
+def test_a_command_signal_of_other_limits_says_so(cli: Cli, tmp_path: Path) -> None:
+    steps = PROPOSAL | {"excitation": "current_steps", "limits": PROPOSAL["limits"] | {"current_A": [0, 1]}}
+    (tmp_path / "diagnosis.json").write_text(json.dumps({"next_test": steps}), encoding="utf-8")
+    out = tmp_path / "command.csv"
+    status, said, err = cli("next-test", tmp_path, "--out", out)
+    assert (status, "up to 4 mm\n" in said, err) == (0, True, "")
+    status, said, err = cli("next-test", tmp_path, "--stroke", "3", "--current", "0.5:2", "--out", out)
+    assert (status, err) == (0, "")
+    assert said.endswith("up to 3 mm, within other limits than those for which this is expected\n")
+    current = np.loadtxt(out, delimiter=",", skiprows=1)[:, 2]
+    assert (current.min(), current.max()) == (0.5, 2.0)
+    status, _, err = cli("next-test", tmp_path, "--current", "2", "--out", out)
+    assert (status, err) == (2, "mre-core: --current 2, wanted --current LOWEST:HIGHEST in A\n")
 
 
 def test_a_trial_is_repeated_and_its_seed_stays_sealed(cli: Cli, tmp_path: Path) -> None:

@@ -288,7 +288,7 @@ def test_an_interruption_while_jobs_are_handed_out_stops_those_at_work(
         if run == "crew":
             crew.run("jobs", endless, range(50))
         else:
-            _identify_all(own(), seed=1, iterations=10**6, threads=2)
+            _identify_all(own(), seed=1, iterations=10**6, threads=2, quiet=False)
     assert all(future.done() for future in futures)
 
 

@@ -40,6 +40,7 @@ def command(
     highest: float | None = None,
     duration: float | None = None,
     rate: float | None = None,
+    current: tuple[float, float] | None = None,
 ) -> Command:
     """Make the signal of a proposed test, within limits.
 
@@ -50,6 +51,8 @@ def command(
     stroke, speed, highest, duration, rate : float, optional
         Largest displacement in mm and speed in mm/s, highest frequency in Hz, duration in s, samples a
         second; those of the recordings by default.
+    current : (float, float), optional
+        Lowest and highest current in A, where the test commands it; those of the recordings by default.
 
     Returns
     -------
@@ -59,7 +62,7 @@ def command(
     Raises
     ------
     MreError
-        A limit that is not positive and finite (a ValueError).
+        A limit that is not positive and finite, or currents in the wrong order (a ValueError).
     """
     conform(proposal, PROPOSAL, "the proposal")
     known = proposal["limits"]
@@ -91,8 +94,10 @@ def command(
             f"duration is {limits['duration']:g} s at {limits['rate']:g} samples a second",
             wanted=f"at most {MOST_SAMPLES} samples",
         )
-    excitation, current = str(proposal.get("excitation")), known.get("current_A")
-    ends = None if current is None else _ends(current)
+    excitation, currents = str(proposal.get("excitation")), known.get("current_A")
+    if current is not None:
+        currents = current
+    ends = None if currents is None else _ends(currents)
     time, displacement, steps = _core.excitation(excitation, **limits, current=ends)
     if (far := np.abs(displacement).max()) < LEAST:
         found = f"the signal moves {far:g} mm with speed {limits['speed']:g} mm/s"

@@ -21,8 +21,9 @@ Results = dict[tuple[str, str, str], Any]
     "--iterations", type=WHOLE, default=100, show_default=True, help="Of each swarm; the paper has 300."
 )
 @click.option("--threads", type=WHOLE, help="Threads; all cores by default.")
+@click.option("--quiet", is_flag=True, help="No progress, no tables.")
 @config_option
-def demo(out: Path | None, seed: int, iterations: int, threads: int | None) -> None:
+def demo(out: Path | None, seed: int, iterations: int, threads: int | None, quiet: bool) -> None:
     """Identify the paper's twelve tests with both models and all three swarms.
 
     The paper's recordings are not public: this is a simulated replica of its campaign.
@@ -43,14 +44,17 @@ def demo(out: Path | None, seed: int, iterations: int, threads: int | None) -> N
     recordings = [record(condition, seed) for condition in CAMPAIGN]
     place = staged(out) if out is not None else nullcontext()
     with place as stage:
-        results = _identify_all(recordings, seed, iterations, threads)
-        _print(console(), results)
+        results = _identify_all(recordings, seed, iterations, threads, quiet=quiet)
+        if not quiet:
+            _print(console(), results)
         if isinstance(stage, Stage) and out is not None:
             write_settings(stage, out)
             _write(stage, recordings, results)
 
 
-def _identify_all(recordings: list[Any], seed: int, iterations: int, threads: int | None) -> Results:
+def _identify_all(
+    recordings: list[Any], seed: int, iterations: int, threads: int | None, *, quiet: bool
+) -> Results:
     """Identify every test with every model and swarm, side by side with one thread each."""
     from ..crew import Crew
     from ..identify import identify
@@ -62,7 +66,7 @@ def _identify_all(recordings: list[Any], seed: int, iterations: int, threads: in
         for model in _MODELS
         for optimizer in _OPTIMIZERS
     ]
-    with counted("identifying", quiet=False) as on_progress:
+    with counted("identifying", quiet=quiet) as on_progress:
         crew = Crew(threads, lambda _, done, count: on_progress(done, count))
 
         def run(job: tuple[Any, str, Any]) -> Any:

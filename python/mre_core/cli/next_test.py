@@ -21,10 +21,13 @@ from .options import config_option
 @click.option("--highest", type=float, help="Highest frequency, Hz.")
 @click.option("--duration", type=float, help="Duration, s.")
 @click.option("--rate", type=float, help="Samples a second.")
+@click.option("--current", metavar="LOWEST:HIGHEST", help="Range of a current that is commanded, A.")
 @click.option("--quiet", is_flag=True, help="Print nothing.")
 @config_option
-def next_test(folder: Path, out: Path, quiet: bool, **limits: float | None) -> None:
+def next_test(folder: Path, out: Path, quiet: bool, current: str | None, **limits: float | None) -> None:
     """Write the command signal of the test that the diagnosis in DIR proposes.
+
+    What is not limited here stays within what was tested.
 
     \b
     Examples:
@@ -41,7 +44,7 @@ def next_test(folder: Path, out: Path, quiet: bool, **limits: float | None) -> N
     from .settings import name_beside, write_settings
 
     proposal = read_proposal(folder)
-    signal = command(proposal, **limits)
+    signal = command(proposal, **limits, current=None if current is None else _range(current))
     columns = {"time_s": signal.time, "displacement_mm": signal.displacement}
     if signal.current is not None:
         columns["current_A"] = signal.current
@@ -50,7 +53,18 @@ def next_test(folder: Path, out: Path, quiet: bool, **limits: float | None) -> N
         frame.to_csv(stage.path(out.name), index=False, lineterminator="\n")
         write_settings(stage, out.parent, name_beside(out))
     if not quiet:
-        far = np.abs(signal.displacement).max()
-        click.echo(
-            f"{out}: {one_line(str(proposal.get('why')))}; {len(signal.time)} samples, up to {far:.3g} mm"
-        )
+        far, last = np.abs(signal.displacement).max(), signal.time[-1]
+        written = f"{len(signal.time)} samples, {last:.3g} s, up to {far:.3g} mm"
+        if current is not None or any(value is not None for value in limits.values()):
+            written += ", within other limits than those for which this is expected"
+        click.echo(f"{out}: {one_line(str(proposal.get('why')))}; {written}")
+
+
+def _range(text: str) -> tuple[float, float]:
+    from ..errors import InputError
+
+    try:
+        low, high = map(float, text.split(":"))
+    except ValueError:
+        raise InputError(f"--current {text}", wanted="--current LOWEST:HIGHEST in A") from None
+    return low, high

@@ -18,8 +18,11 @@ OnProgress = Callable[[str, int, int], None]
 
 
 @contextmanager
-def stages() -> Iterator[OnProgress]:
+def stages(*, quiet: bool = False) -> Iterator[OnProgress]:
     """Show every part of the study as it goes: a bar each on a terminal, else a line each."""
+    if quiet:
+        yield lambda *_: None
+        return
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 

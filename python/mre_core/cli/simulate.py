@@ -5,18 +5,22 @@ from pathlib import Path
 import click
 
 from .arguments import load_motion
-from .options import common_options
+from .options import WHOLE, common_options
 
 
 @click.command()
 @click.argument("model")
 @click.argument("recording")
 @click.option("--out", required=True, type=click.Path(path_type=Path), metavar="FILE", help="CSV to write.")
+@click.option("--seed", type=WHOLE, help="Taken as by the other commands: nothing is random here.")
+@click.option("--quiet", is_flag=True, help="Taken as by the other commands: only warnings are shown here.")
 @common_options
 def simulate(
     model: str,
     recording: str,
     out: Path,
+    seed: int | None,
+    quiet: bool,
     mapping: tuple[str, ...],
     conditions: tuple[str, ...],
     name_pattern: str | None,

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 @click.option("--exclude", metavar="PARTS", help="start_transient, stop_transient or both, with a comma.")
 @click.option("--seed", type=WHOLE, default=1, show_default=True, help="Same seed, same result.")
 @click.option("--threads", type=WHOLE, help="Threads; all cores by default.")
+@click.option("--quiet", is_flag=True, help="No progress, no tables.")
 @common_options
 def study(
     out: Path,
@@ -35,6 +36,7 @@ def study(
     exclude: str | None,
     seed: int,
     threads: int | None,
+    quiet: bool,
     mapping: tuple[str, ...],
     conditions: tuple[str, ...],
     name_pattern: str | None,
@@ -69,12 +71,13 @@ def study(
     loaded = load_all(recordings, mapping, conditions, name_pattern, reading) if recordings else []
     loaded = trimmed(loaded, None, exclude)
     with staged(out) as stage:
-        with stages() as on_progress:
+        with stages(quiet=quiet) as on_progress:
             effort = QUICK if quick else FULL
             found = run(loaded or None, seed=seed, effort=effort, threads=threads, on_progress=on_progress)
             write_settings(stage, out)
             _write(stage, found)
-    print_study(found)
+    if not quiet:
+        print_study(found)
 
 
 def _write(stage: "Stage", found: "Study") -> None:
