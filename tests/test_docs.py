@@ -75,6 +75,8 @@ def test_the_reference_has_everything_public() -> None:
     listed = re.findall(r"^::: mre_core\.\S*?(\w+)$", text_of(DOCS / "api.md"), flags=re.MULTILINE)
     assert len(set(listed)) == len(listed)
     assert set(mre_core.__all__) - {"__version__"} <= set(listed)
+    homes = (mre_core, mre_core.plots, mre_core.trial)
+    assert not [name for name in listed if not any(hasattr(home, name) for home in homes)]
 
 
 @pytest.mark.parametrize("page", PAGES, ids=name_of)

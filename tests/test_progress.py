@@ -111,6 +111,21 @@ def test_lazy_names_are_the_ones_that_types_see() -> None:
         _ = mre_core.nothing
 
 
+def test_parts_with_names_of_their_own_need_no_import() -> None:
+    run = run_script("import mre_core; print(mre_core.plots.plot_fit, mre_core.trial.run_trial)")
+    assert (run.returncode, run.stderr) == (0, "")
+    assert {"plots", "trial"} <= set(dir(mre_core))
+
+
+def test_a_list_of_commands_is_in_whole_sentences(cli: Cli) -> None:
+    for group in ((), ("trial",)):
+        status, out, _ = cli(*group, "--help")
+        listed = out.partition("Commands:\n")[2].splitlines()
+        assert status == 0
+        assert listed
+        assert all(line.endswith(".") and not line.endswith("...") for line in listed), listed
+
+
 def test_a_module_does_not_hide_the_function_of_its_name() -> None:
     code = """
 import mre_core.diagnose, mre_core.load, mre_core.identify

@@ -8,7 +8,7 @@ from typing import Any
 import mre_core
 import numpy as np
 import pytest
-from mre_core import Effect, Level, Model, MreError, Problem, Recording
+from mre_core import Effect, Level, MissingEffect, Model, MreError, Problem, Recording
 from rig import SINH, made_of, motion, record
 
 
@@ -90,13 +90,15 @@ def everything(recording: Recording) -> dict[str, Any]:
     laws = mre_core.fit_laws(recordings, "kelvin_voigt")
     x = found.result.x
     uncertainty = mre_core.uncertainty(problem, x)
+    [loops] = mre_core.loops(recording)
     objects = [
         *(recording, problem, found, found.model, found.fits[0], found.result, found.result.parameters[0]),
         *(effect, Model("sinh", (Level(0.0, SINH),), {}, (effect,), sizes), Level(0.0, SINH)),
         *(laws, next(iter(laws.model.laws.values())), next(iter(laws.model.laws.values())).law),
         *(uncertainty, uncertainty.parameters[0], mre_core.profile(problem, x)[0]),
         *(mre_core.bootstrap(problem, x, 3, seed=1), mre_core.certificate(problem, found.result)),
-        *(mre_core.loops(recording)[0], found.result.reason, mre_core.diagnose(recordings, "sinh", seed=1)),
+        *(loops, loops.measured[0], found.result.reason, mre_core.diagnose(recordings, "sinh", seed=1)),
+        MissingEffect("inertia", "moving mass", "a", "b", "c", {}, 0.0, "exact", 0.0, (), 2.0, 1.0),
         *(mre_core.InputError("a", file="f", line=3, wanted="b"), MreError("a")),
         *(
             mre_core.UnitAssumedWarning("a"),

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from .current_laws.law import Dependence, Law
     from .dataframe import from_dataframe
     from .diagnose import diagnose
-    from .diagnosis import Diagnosis
+    from .diagnosis import Diagnosis, MissingEffect
     from .effects import Effect
     from .errors import CopyWarning, ExtrapolationWarning, InputError, SkippedWarning, UnitAssumedWarning
     from .fits import exact, hybrid
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from .identify import identify
     from .inspection import Inspection, inspect
     from .load import load, load_all
-    from .loops import LoopTable, loops
+    from .loops import Loop, LoopTable, loops
     from .measure import Fit
     from .model import Level, Model, simulate
     from .results import Parameter, StopReason, SwarmResult
@@ -51,7 +51,9 @@ __all__ = [
     "Law",
     "LawFit",
     "Level",
+    "Loop",
     "LoopTable",
+    "MissingEffect",
     "Model",
     "MreError",
     "Parameter",
@@ -101,7 +103,7 @@ _HOMES = {
     "current_laws.law": "Dependence Law",
     "dataframe": "from_dataframe",
     "diagnose": "diagnose",
-    "diagnosis": "Diagnosis",
+    "diagnosis": "Diagnosis MissingEffect",
     "effects": "Effect",
     "errors": "CopyWarning ExtrapolationWarning InputError SkippedWarning UnitAssumedWarning",
     "fits": "exact hybrid",
@@ -109,7 +111,7 @@ _HOMES = {
     "identify": "identify",
     "inspection": "Inspection inspect",
     "load": "load load_all",
-    "loops": "LoopTable loops",
+    "loops": "Loop LoopTable loops",
     "measure": "Fit",
     "model": "Level Model simulate",
     "results": "Parameter StopReason SwarmResult",
@@ -118,10 +120,15 @@ _HOMES = {
 }
 """Module to the names it defines. They are imported on first use: the command line needs few of them."""
 
+_PARTS = ("plots", "trial")
+"""Sub-packages with names of their own, which need no import of their own either."""
+
 _HOME = {name: module for module, names in _HOMES.items() for name in names.split()}
 
 
 def __getattr__(name: str) -> Any:
+    if name in _PARTS:
+        return import_module(f".{name}", __name__)
     if name not in _HOME:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     value = getattr(import_module(f".{_HOME[name]}", __name__), name)
@@ -130,7 +137,7 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__})
+    return sorted({*globals(), *__all__, *_PARTS})
 
 
 class _Package(ModuleType):

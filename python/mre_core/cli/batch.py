@@ -22,7 +22,7 @@ _SHOWN = 20
 """Failed items that are shown; all are in the table."""
 
 
-@click.command()
+@click.command(short_help="Work on every recording and campaign in a folder.")
 @click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
 @click.option(
     "--out", type=click.Path(path_type=Path), required=True, metavar="OUT", help="Folder for the results."

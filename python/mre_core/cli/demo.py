@@ -14,7 +14,7 @@ Results = dict[tuple[str, str, str], Any]
 """Identifications by test, model and swarm."""
 
 
-@click.command()
+@click.command(short_help="Identify the paper's twelve tests, with no files needed.")
 @click.option("--out", type=click.Path(path_type=Path), metavar="DIR", help="Folder for tables and figures.")
 @click.option("--seed", type=WHOLE, default=1, show_default=True, help="Of the noise and of the swarms.")
 @click.option(

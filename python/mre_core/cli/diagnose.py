@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from ..output import Stage
 
 
-@click.command()
+@click.command(short_help="Say what a model leaves out of recordings.")
 @click.argument("recordings", nargs=-1, required=True)
 @click.option(
     "--base",

@@ -9,7 +9,7 @@ from .arguments import load_all, read_bounds, trimmed, unique_names
 from .options import WHOLE, common_options, fit_options, report_options, trim_options
 
 
-@click.command()
+@click.command(short_help="Identify a model from recordings.")
 @click.argument("recordings", nargs=-1, required=True)
 @click.option(
     "--model", required=True, metavar="MODEL", help="kelvin_voigt, sinh, bouc_wen, or a model.json."

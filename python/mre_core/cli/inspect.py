@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from ..inspection import Inspected, Inspection
 
 
-@click.command()
+@click.command(short_help="Show what is understood of recordings.")
 @click.argument("recordings", nargs=-1, required=True)
 @click.option(
     "--write-config",

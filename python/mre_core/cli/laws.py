@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from .._core import Recording
 
 
-@click.command()
+@click.command(short_help="Fit recordings at several currents, with laws over it.")
 @click.argument("recordings", nargs=-1, required=True)
 @click.option("--model", required=True, metavar="MODEL", help="kelvin_voigt, sinh or bouc_wen.")
 @click.option(

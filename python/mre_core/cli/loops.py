@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from ..loops import LoopTable
 
 
-@click.command()
+@click.command(short_help="Measure hysteresis loops as test standards do.")
 @click.argument("recordings", nargs=-1, required=True)
 @click.option("--model", metavar="MODEL.json", help="A model whose loops stand beside the measured ones.")
 @click.option("--out", type=click.Path(path_type=Path), metavar="DIR", help="Folder for the results.")
@@ -149,7 +149,8 @@ def _print(tables: "Sequence[LoopTable]") -> None:
             table.add_column(column, justify="right" if column in {"mean", "model", "error"} else "left")
         for q in QUANTITIES:
             deviation, error = found.deviation(q.name), found.error(q.name)
-            cells = [f"{found.mean(q.name):.5g}", "" if deviation is None else f"{deviation:.2g}"]
+            scatter = "" if deviation is None else f"{float(f'{deviation:.2g}'):g}"  # 100, not 1e+02
+            cells = [f"{found.mean(q.name):.5g}", scatter]
             more = [f"{found.mean(q.name, of='model'):.5g}"] if with_model else []
             more += [] if not with_model else ["" if error is None else f"{100 * error:+.1f} %"]
             unit = "" if q.unit == "1" else q.unit

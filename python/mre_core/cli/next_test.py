@@ -7,7 +7,7 @@ import click
 from .options import config_option
 
 
-@click.command("next-test")
+@click.command("next-test", short_help="Write the signal of the test that a diagnosis proposes.")
 @click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
 @click.option(
     "--out",

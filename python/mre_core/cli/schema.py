@@ -3,7 +3,7 @@
 import click
 
 
-@click.command()
+@click.command(short_help="Print the JSON schema of settings files.")
 def schema() -> None:
     """Print the JSON schema of settings files, for an editor or a check.
 

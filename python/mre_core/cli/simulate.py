@@ -8,7 +8,7 @@ from .arguments import load_motion
 from .options import WHOLE, common_options
 
 
-@click.command()
+@click.command(short_help="Predict the force of a model over a motion.")
 @click.argument("model")
 @click.argument("recording")
 @click.option("--out", required=True, type=click.Path(path_type=Path), metavar="FILE", help="CSV to write.")

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from ..study import Study
 
 
-@click.command()
+@click.command(short_help="Repeat section 4 of the paper, claim by claim.")
 @click.option(
     "--out", required=True, type=click.Path(path_type=Path), metavar="DIR", help="Folder for the results."
 )

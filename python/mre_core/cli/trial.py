@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from ..trial import Opening
 
 
-@click.group()
+@click.group(short_help="Test the diagnosis on concealed physics.")
 def trial() -> None:
     """Test the diagnosis on concealed physics: make a trial, run it, open its sealed answers.
 
@@ -28,7 +28,7 @@ _workers = click.option("--workers", type=WHOLE, help="Processes; one for each c
 _quiet = click.option("--quiet", is_flag=True, help="No progress.")
 
 
-@trial.command()
+@trial.command(short_help="Write recordings with concealed effects, and seal the answers.")
 @_folder
 @click.option("--cases", type=WHOLE, default=600, show_default=True, help="Recorded campaigns.")
 @click.option("--seed", type=WHOLE, help="Same seed, same trial; drawn and sealed where not given.")
@@ -79,7 +79,7 @@ def run(folder: Path, resume: bool, workers: int | None, cluster: str | None, qu
     click.echo(f"{number_of(done, 'case')} diagnosed")
 
 
-@trial.command("open")
+@trial.command("open", short_help="Check the seal and compare the diagnoses with the answers.")
 @_folder
 @click.option(
     "--answers", type=click.Path(path_type=Path), metavar="FILE", help="The answers, kept elsewhere."
