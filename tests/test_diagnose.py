@@ -9,7 +9,7 @@ import mre_core
 import numpy as np
 import pytest
 from missing import K_M, NOISE, TAU, campaign, record, with_series
-from mre_core import Diagnosis, InputError, Level, Model, _core
+from mre_core import Diagnosis, Effect, InputError, Level, Model, _core
 from rig import SINH, force_of, rms
 
 
@@ -138,6 +138,19 @@ def test_pickle(relaxing: Diagnosis) -> None:
     copy = pickle.loads(pickle.dumps(relaxing))
     assert copy == relaxing
     np.testing.assert_array_equal(copy.histories[0].final, relaxing.histories[0].final)
+
+
+def test_effects_beside_a_simulated_force_are_not_simulated() -> None:
+    [plain, *_] = campaign()
+    given = with_series(plain, simulated=plain.displacement)
+    mass = Effect("inertia", "moving mass", {"m": 3.0})
+    sizes = dict.fromkeys(
+        ("displacement", "velocity", "force", "step", "duration", "total", "path", "energy"), 1.0
+    )
+    bare, heavy = (Model("simulated", (Level(None, {}),), {}, effects, sizes) for effects in ((), (mass,)))
+    np.testing.assert_array_equal(mre_core.simulate(bare, given), plain.displacement)
+    with pytest.raises(InputError, match=r"wanted a base with parameters; .* final_N in residuals\.csv"):
+        mre_core.simulate(heavy, given)
 
 
 def test_fixed_and_simulated_are_the_same_question() -> None:

@@ -287,5 +287,8 @@ def simulate(model: Model | str | os.PathLike[str], recording: Recording) -> NDA
             f"recording '{recording.name}' has no simulated force", wanted="a column simulated_force_N"
         )
     if effects:
-        raise InputError("effects on a simulated force", wanted="a model with parameters")
+        raise InputError(
+            "the model has effects beside a simulated force",
+            wanted="a base with parameters; their sum is final_N in residuals.csv",
+        )
     return recording.simulated
