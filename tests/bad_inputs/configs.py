@@ -28,15 +28,17 @@ CONFIGS = {
         "[[identify]]\nfish = 3", "[identify] is [{'fish': 3}]", "a table of options"
     ),
     "an empty key": config("'' = 3", "unknown key ''"),
-    "a list for a map": config("map = [1]", "--map is 1", "string"),
+    "a list for a map": config("map = [1]", "--map is 1", "wanted a text"),
     "a table in a map": config("map = {a = {b = 1}}", "--map"),
     "a date for a current": config("set = {current = 1979-05-27}", "--set", "1979"),
     "a number for bounds": config("[identify]\nbounds = 3", "[identify] --bounds is 3", "a list or a table"),
-    "a number for a folder": config("[identify]\nout = 3", "[identify] --out is 3", "string"),
+    "a number for a folder": config("[identify]\nout = 3", "[identify] --out is 3", "wanted a text"),
     "recordings that are numbers": config("recordings = [[1]]", "--recordings"),
-    "a seed that is text": config("[identify]\nseed = 'a'", "--seed is 'a'", "integer"),
-    "a seed that is a fraction": config("[identify]\nseed = 1.5", "--seed is 1.5", "integer"),
-    "a seed that is a truth value": config("[identify]\nseed = true", "--seed is True", "integer"),
+    "a seed that is text": config("[identify]\nseed = 'a'", "--seed is 'a'", "wanted a whole number"),
+    "a seed that is a fraction": config("[identify]\nseed = 1.5", "--seed is 1.5", "wanted a whole number"),
+    "a seed that is a truth value": config(
+        "[identify]\nseed = true", "--seed is True", "wanted a whole number"
+    ),
     "a seed of 23 digits": option(
         "too many digits", given=["--config", "c.toml"], files={"c.toml": b"[identify]\nseed = " + b"9" * 23}
     ),
@@ -47,6 +49,6 @@ CONFIGS = {
     "an encoding of nobody": option(
         "'klingon'", given=["--config", "c.toml"], files={"c.toml": b"read = {encoding = 'klingon'}"}
     ),
-    "a pattern that is a number": config("name_pattern = 3", "--name-pattern is 3", "string"),
+    "a pattern that is a number": config("name_pattern = 3", "--name-pattern is 3", "wanted a text"),
     "a folder for a config": option(".: cannot be read: Is a directory", given=["--config", "."]),
 }

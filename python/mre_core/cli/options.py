@@ -19,7 +19,7 @@ class Whole(click.types.IntParamType):
         """Convert a text."""
         number = super().convert(value, param, ctx)
         if not -(2**63) <= number < 2**63:
-            self.fail(f"{value} has too many digits, wanted a whole number", param, ctx)
+            self.fail(f"{value} has too many digits, wanted a whole number below 2^63", param, ctx)
         return number
 
 

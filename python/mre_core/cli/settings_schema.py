@@ -124,9 +124,20 @@ def _known(place: Sequence[str]) -> list[str]:
     return [str(field.alias) for field in settings_model().model_fields.values()]
 
 
+_PLAIN = {
+    "list": "a list or a table",
+    "dictionary": "a list or a table",
+    "integer": "a whole number",
+    "number": "a number",
+    "boolean": "true or false",
+    "string": "a text",
+}
+"""What the checker of settings calls a kind of value, and what it is."""
+
+
 def _wanted(message: str) -> str:
     text = message.removeprefix("Input should be ").removeprefix("a valid ")
-    return {"list": "a list or a table", "dictionary": "a list or a table"}.get(text, text)
+    return _PLAIN.get(text, text)
 
 
 def _help(parameter: click.Parameter) -> str:
