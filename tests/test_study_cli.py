@@ -30,6 +30,14 @@ def test_recordings_take_several_files() -> None:
     ]
 
 
+def test_bounds_and_laws_take_several_parameters() -> None:
+    given = ["laws", "--bounds", "beta=0.1:1", "kw=0:2", "a=b.csv", "--law", "c0=linear", "c=d.csv"]
+    assert spread(given) == [
+        *("laws", "--bounds", "beta=0.1:1", "--bounds", "kw=0:2", "a=b.csv"),
+        *("--law", "c0=linear", "c=d.csv"),
+    ]
+
+
 def test_an_empty_value_is_told_from_one_that_ends_in_an_equals_sign() -> None:
     assert spread(["inspect", "a.csv", "--read=separator=="]) == ["inspect", "a.csv", "--read=separator=="]
     assert spread(["inspect", "--name-pattern={current}="]) == ["inspect", "--name-pattern={current}="]

@@ -5,7 +5,7 @@ import warnings
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from typing import Any
 
-from .._core import Recording
+from .._core import Recording, models, parameters
 from ..conditions import conditions_in_name
 from ..errors import InputError
 from ..files import ReadOptions
@@ -14,7 +14,8 @@ from ..load import load
 from ..load import load_each as load_files
 from ..units import ROLES
 
-_PAIRS = ("--map", "--set", "--read")
+_OF_PARAMETERS = ("--bounds", "--law")
+_PAIRS = ("--map", "--set", "--read", *_OF_PARAMETERS)
 _FILES = ("--recordings",)
 _MOST_SEEDS = 1_000_000
 _LONGEST_NAME = 150
@@ -23,11 +24,15 @@ _LONGEST_NAME = 150
 
 def _keys(option: str) -> Collection[str]:
     """Tell what may stand before the equals sign."""
+    if option in _OF_PARAMETERS:
+        return {name for model in models() for name, _ in parameters(model)}
     return ReadOptions._fields if option == "--read" else ROLES
 
 
 def spread(arguments: Sequence[str]) -> list[str]:
     """Let ``--map a=b c=d`` stand for ``--map a=b --map c=d``, and ``--recordings`` take several files.
+
+    The same holds for every option of `_PAIRS`.
 
     Raises
     ------
