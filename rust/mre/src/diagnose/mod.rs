@@ -14,6 +14,7 @@ mod bounded;
 mod candidates;
 mod clipped;
 mod coherent;
+mod correction;
 mod diagnosis;
 mod distribution;
 mod drift;

@@ -7,7 +7,8 @@
 
 use nalgebra::DVector;
 
-use super::block::{Block, SMALLEST_SHARE, correction};
+use super::block::{Block, SMALLEST_SHARE};
+use super::correction::correction;
 use super::distribution::CAUTION;
 use super::null::Null;
 use crate::assembly::Assembly;

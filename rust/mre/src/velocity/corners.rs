@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-use super::local::{Local, TERMS};
+use super::local::TERMS;
+use super::window::Window;
 
 /// Share of the squares around a corner that a broken line leaves at most. Of a sine it leaves 1.28 % at least, at
 /// any length of the window; of several tones it may leave less.
@@ -64,9 +65,7 @@ fn variance(displacement: &[f64], smooth: &[f64], half: usize) -> f64 {
     let mut squares: Vec<f64> = displacement.iter().zip(smooth).map(|(x, s)| (x - s).powi(2)).collect();
     let middle = squares.len() / 2;
     let median = *squares.select_nth_unstable_by(middle, f64::total_cmp).1;
-    let place: Vec<f64> = (0..=2 * half).map(|k| k as f64).collect();
-    let own = Local::fit(&place, &place, half, half, TERMS).leverage;
-    median / GAUSSIAN / (1.0 - own)
+    median / GAUSSIAN / (1.0 - Window { half, terms: TERMS }.leverage())
 }
 
 /// A straight line by least squares through values one sample apart.

@@ -1,5 +1,7 @@
 //! Local polynomials by least squares, at any times.
 
+use nalgebra::{Cholesky, Const};
+
 /// Coefficients of the polynomial. A cubic has to take a window so short, where motion is curved, that it lets four
 /// times as much noise into the velocity.
 pub(super) const TERMS: usize = 8;
@@ -7,12 +9,12 @@ pub(super) const TERMS: usize = 8;
 const LANES: usize = 8;
 
 type Square = nalgebra::SMatrix<f64, TERMS, TERMS>;
-type Column = nalgebra::SVector<f64, TERMS>;
+pub(super) type Column = nalgebra::SVector<f64, TERMS>;
 
 /// Half window with more samples than coefficients.
 pub(super) const NARROWEST: usize = TERMS / 2;
 
-/// Polynomial fitted to the samples within a window around one of them.
+/// What a polynomial says of a sample.
 pub(super) struct Local {
     /// At the sample.
     pub(super) value: f64,
@@ -22,14 +24,28 @@ pub(super) struct Local {
     pub(super) leverage: f64,
 }
 
-impl Local {
+/// Polynomial fitted to the samples within a window.
+pub(super) struct Polynomial {
+    centre: f64,
+    scale: f64,
+    terms: usize,
+    /// Displacement that the polynomial is counted from.
+    base: f64,
+    /// `None` for times that nearly coincide.
+    found: Option<(Cholesky<f64, Const<TERMS>>, Column)>,
+    /// Slope of the chord of the window.
+    chord: f64,
+}
+
+impl Polynomial {
     /// The fit of at most so many `terms` to `half` samples on either side of sample `i`.
-    pub(super) fn fit(time: &[f64], displacement: &[f64], i: usize, half: usize, terms: usize) -> Self {
+    pub(super) fn around(time: &[f64], displacement: &[f64], i: usize, half: usize, terms: usize) -> Self {
         let last = time.len() - 1;
         // At the ends the window is shifted, not shortened, so that the noise stays bounded.
         let start = i.saturating_sub(half).min(last.saturating_sub(2 * half));
         let stop = (start + 2 * half).min(last);
         let (centre, scale) = (0.5 * (time[start] + time[stop]), 0.5 * (time[stop] - time[start]));
+        let base = displacement[i];
         let mut moments = [[0.0; LANES]; 2 * TERMS - 1];
         let mut right = [[0.0; LANES]; TERMS];
         for (t, x) in time[start..=stop].chunks(LANES).zip(displacement[start..=stop].chunks(LANES)) {
@@ -37,7 +53,7 @@ impl Local {
             let (mut place, mut rise, mut term) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
             for lane in 0..t.len() {
                 place[lane] = (t[lane] - centre) / scale;
-                rise[lane] = x[lane] - displacement[i];
+                rise[lane] = x[lane] - base;
                 term[lane] = 1.0;
             }
             let mut next = place;
@@ -55,38 +71,48 @@ impl Local {
         let right = right.map(|lanes| lanes.iter().sum());
         // A short recording has a lower degree: its other rows are those of the identity.
         let terms = terms.min(stop - start);
-        let used = |column: [f64; TERMS]| Column::from_fn(|r, _| if r < terms { column[r] } else { 0.0 });
-        // T_r T_c = (T_(r+c) + T_|r-c|) / 2: one pass gives the whole matrix.
-        let matrix = Square::from_fn(|r, c| {
-            if r.max(c) < terms {
-                0.5 * (moments[r + c] + moments[r.abs_diff(c)])
-            } else {
-                f64::from(u8::from(r == c))
-            }
+        let found = normal_matrix(&moments, terms).cholesky().map(|factor| {
+            let coefficients = factor.solve(&first(right, terms));
+            (factor, coefficients)
         });
-        let place = (time[i] - centre) / scale;
-        let (here, rise) = (used(chebyshev(place)), used(slopes(place)));
-        match matrix.cholesky() {
-            Some(factor) => {
-                let found = factor.solve(&used(right));
-                Self {
-                    value: displacement[i] + found.dot(&here),
-                    slope: found.dot(&rise) / scale,
-                    leverage: factor.solve(&here).dot(&here),
-                }
-            }
-            // Times that nearly coincide: fall back to the chord of the window.
-            None => Self {
-                value: displacement[i],
-                slope: (displacement[stop] - displacement[start]) / (time[stop] - time[start]),
-                leverage: 0.5,
+        let chord = (displacement[stop] - displacement[start]) / (time[stop] - time[start]);
+        Self { centre, scale, terms, base, found, chord }
+    }
+
+    /// What it says of a sample of its window.
+    pub(super) fn at(&self, time: f64, displacement: f64) -> Local {
+        let place = (time - self.centre) / self.scale;
+        let here = first(chebyshev(place), self.terms);
+        let rise = first(slopes(place), self.terms);
+        match &self.found {
+            Some((factor, found)) => Local {
+                value: self.base + found.dot(&here),
+                slope: found.dot(&rise) / self.scale,
+                leverage: factor.solve(&here).dot(&here),
             },
+            None => Local { value: displacement, slope: self.chord, leverage: 0.5 },
         }
     }
 }
 
+/// The first terms of a column, and zeros.
+pub(super) fn first(column: [f64; TERMS], terms: usize) -> Column {
+    Column::from_fn(|r, _| if r < terms { column[r] } else { 0.0 })
+}
+
+/// Sums of products of Chebyshev polynomials, from their own: `T_r T_c = (T_(r+c) + T_|r-c|) / 2`.
+pub(super) fn normal_matrix(moments: &[f64; 2 * TERMS - 1], terms: usize) -> Square {
+    Square::from_fn(|r, c| {
+        if r.max(c) < terms {
+            0.5 * (moments[r + c] + moments[r.abs_diff(c)])
+        } else {
+            f64::from(u8::from(r == c))
+        }
+    })
+}
+
 /// Chebyshev polynomials at u, of degree 0 to N - 1.
-fn chebyshev<const N: usize>(u: f64) -> [f64; N] {
+pub(super) fn chebyshev<const N: usize>(u: f64) -> [f64; N] {
     let mut terms = [1.0; N];
     terms[1] = u;
     for k in 2..N {
@@ -96,7 +122,7 @@ fn chebyshev<const N: usize>(u: f64) -> [f64; N] {
 }
 
 /// Their derivatives.
-fn slopes(u: f64) -> [f64; TERMS] {
+pub(super) fn slopes(u: f64) -> [f64; TERMS] {
     let terms: [f64; TERMS] = chebyshev(u);
     let mut found = [0.0; TERMS];
     found[1] = 1.0;

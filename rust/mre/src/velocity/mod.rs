@@ -12,6 +12,7 @@ mod corners;
 mod local;
 mod low_pass;
 mod octaves;
+mod stencil;
 mod window;
 
 use std::ops::Range;

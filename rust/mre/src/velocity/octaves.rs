@@ -6,18 +6,21 @@
 //! octave by octave what the next window takes off is compared with what noise would leave there.
 
 use super::Derived;
-use super::local::{Local, TERMS};
+use super::local::TERMS;
 use super::low_pass::LowPass;
 use super::window::Window;
 
 /// Widest half window in samples.
-const WIDEST: usize = 256;
+const WIDEST: usize = 1024;
 /// Cut-off frequencies that are tried are so many times apart.
 const APART: f64 = 1.15;
 /// An octave with less than so many times the mean square that noise has is noise.
 const NOISE: f64 = 2.0;
 /// Octaves that may hold noise beside motion.
 const MIXED: usize = 2;
+
+/// Displacement, mm, and velocity, mm/s.
+type Motion = [Vec<f64>; 2];
 
 /// A derived motion with less noise.
 pub struct Calmed {
@@ -27,98 +30,120 @@ pub struct Calmed {
     pub velocity: Vec<f64>,
     /// Parts of the displacement, mm, and of the velocity, mm/s, that are noise or may hold some: what was taken off,
     /// and what was left of the fastest octaves.
-    pub noisy: Vec<[Vec<f64>; 2]>,
+    pub noisy: Vec<Motion>,
 }
 
-/// A motion and the share of white noise that is left in its displacement, mean square.
+/// A derived motion on an even grid less its noise, from the measured displacement in mm.
+pub fn calmed(time: &[f64], measured: &[f64], derived: &Derived) -> Calmed {
+    let step = (time[time.len() - 1] - time[0]) / (time.len() - 1) as f64;
+    let half = (0.5 * derived.window / step).round() as usize;
+    let share = Window { half, terms: TERMS }.leverage();
+    let motion = [derived.displacement.clone(), derived.velocity.clone()];
+    let narrow = Smooth { motion, half, share };
+    let mut noisy = Noisy { time, measured, step, variance: 0.0 };
+    noisy.variance = noisy.left_by(&narrow) / (1.0 - share).max(f64::MIN_POSITIVE);
+    let Some(wide) = noisy.smooth(2 * half) else {
+        let [displacement, velocity] = narrow.motion;
+        return Calmed { displacement, velocity, noisy: Vec::new() };
+    };
+    let best = noisy.low_passed(&narrow, &wide);
+    let (taken, mixed) = noisy.of_octaves(&best, wide);
+    let [displacement, velocity] = less(&best.motion, &taken);
+    Calmed { displacement, velocity, noisy: std::iter::once(taken).chain(mixed).collect() }
+}
+
+/// A motion from local polynomials of this half window, and the share of white noise that is left in its displacement,
+/// mean square.
 #[derive(Clone)]
 struct Smooth {
-    motion: [Vec<f64>; 2],
+    motion: Motion,
+    half: usize,
     share: f64,
-}
-
-impl Smooth {
-    fn less(&self, other: &Self) -> [Vec<f64>; 2] {
-        [0, 1].map(|k| each(&self.motion[k], &other.motion[k], |a, b| a - b))
-    }
 }
 
 fn each(a: &[f64], b: &[f64], of: impl Fn(f64, f64) -> f64) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| of(*a, *b)).collect()
 }
 
-/// A derived motion on an even grid less its noise, from the measured displacement in mm.
-pub fn calmed(time: &[f64], measured: &[f64], derived: &Derived) -> Calmed {
-    let n = time.len();
-    let step = (time[n - 1] - time[0]) / (n - 1) as f64;
-    let mut half = (0.5 * derived.window / step).round() as usize;
-    let share = Local::fit(time, measured, n / 2, half, TERMS).leverage;
-    let square = |smooth: &[f64]| -> f64 {
-        measured.iter().zip(smooth).map(|(a, b)| (a - b).powi(2)).sum::<f64>() / n as f64
-    };
-    let left = square(&derived.displacement);
-    let variance = left / (1.0 - share).max(f64::MIN_POSITIVE);
-    let poly = |half: usize| -> Option<Smooth> {
-        if half > WIDEST.min(n / 4) {
-            return None;
-        }
-        let (slope, value) = Window { half, terms: TERMS }.over(time, measured);
-        let share = Local::fit(time, measured, n / 2, half, TERMS).leverage;
-        Some(Smooth { motion: [value, slope], share })
-    };
-    let narrow = Smooth { motion: [derived.displacement.clone(), derived.velocity.clone()], share };
-    let Some(wide) = poly(2 * half) else {
-        let [displacement, velocity] = narrow.motion;
-        return Calmed { displacement, velocity, noisy: Vec::new() };
-    };
-    // Near its ends a recording has windows that are off their middle.
-    let rises = |i: usize| ((i.min(n - 1 - i) as f64 / (2 * half) as f64) - 1.0).clamp(0.0, 1.0);
-    let octave = narrow.less(&wide).map(|o| o.iter().enumerate().map(|(i, d)| rises(i) * d).collect());
-    let risk = |smooth: &Smooth| square(&smooth.motion[0]) + 2.0 * variance * smooth.share;
-    let mut least = risk(&narrow);
-    let mut best = narrow.clone();
-    let mut frequency = 0.5 * share / step;
-    while 2.0 * frequency * step > wide.share {
-        let Some(kept) = LowPass::new(frequency, step).over_both(&octave) else { break };
-        let motion = [0, 1].map(|k| {
-            let fast = each(&octave[k], &kept[k], |all, slow| all - slow);
-            each(&narrow.motion[k], &fast, |all, fast| all - fast)
-        });
-        let tried = Smooth { motion, share: 2.0 * frequency * step };
-        let of_tried = risk(&tried);
-        if of_tried < least {
-            (least, best) = (of_tried, tried);
-        }
-        frequency /= APART;
+fn less(all: &Motion, part: &Motion) -> Motion {
+    [0, 1].map(|k| each(&all[k], &part[k], |all, part| all - part))
+}
+
+/// A measured displacement on an even grid, and the variance of its noise.
+struct Noisy<'a> {
+    time: &'a [f64],
+    measured: &'a [f64],
+    step: f64,
+    variance: f64,
+}
+
+impl Noisy<'_> {
+    /// The motion of a window, where it is not too wide.
+    fn smooth(&self, half: usize) -> Option<Smooth> {
+        let window = Window { half, terms: TERMS };
+        (half <= WIDEST.min(self.time.len() / 4)).then(|| {
+            let (slope, value) = window.over(self.time, self.measured);
+            Smooth { motion: [value, slope], half, share: window.leverage() }
+        })
     }
-    let mut noisy = Vec::new();
-    let mut taken = [vec![0.0; n], vec![0.0; n]];
-    let mut slower = Some(wide);
-    let mut fast = Smooth { motion: best.motion.clone(), share: best.share };
-    while let Some(slow) = slower {
-        half *= 2;
-        // The kernel of a least squares fit is a polynomial, which a narrower fit keeps.
-        let noise = variance * (fast.share - slow.share).max(0.0);
-        let mut octave = fast.less(&slow);
-        let shares: Vec<f64> = around(&octave[0], 2 * half)
-            .into_iter()
-            .map(|square| if square > NOISE * noise { (NOISE * noise / square).powi(2) } else { 1.0 })
-            .collect();
-        for (taken, octave) in taken.iter_mut().zip(&mut octave) {
-            for ((taken, octave), share) in taken.iter_mut().zip(octave).zip(&shares) {
-                *taken += share * *octave;
-                *octave *= 1.0 - share;
+
+    /// Mean square that smoothing takes off.
+    fn left_by(&self, smooth: &Smooth) -> f64 {
+        let square = |(a, b): (&f64, &f64)| (a - b).powi(2);
+        self.measured.iter().zip(&smooth.motion[0]).map(square).sum::<f64>() / self.time.len() as f64
+    }
+
+    /// The motion of a window with the low pass, of what a wider one takes off, that has the smallest error.
+    fn low_passed(&self, narrow: &Smooth, wide: &Smooth) -> Smooth {
+        let n = self.time.len();
+        // Near its ends a recording has windows that are off their middle.
+        let rises = |i: usize| ((i.min(n - 1 - i) as f64 / wide.half as f64) - 1.0).clamp(0.0, 1.0);
+        let octave = less(&narrow.motion, &wide.motion)
+            .map(|part| part.iter().enumerate().map(|(i, d)| rises(i) * d).collect());
+        let risk = |smooth: &Smooth| self.left_by(smooth) + 2.0 * self.variance * smooth.share;
+        let mut frequency = 0.5 * narrow.share / self.step;
+        let (mut least, mut best) = (risk(narrow), narrow.clone());
+        while 2.0 * frequency * self.step > wide.share {
+            let Some(kept) = LowPass::new(frequency, self.step).over_both(&octave) else { break };
+            let motion = less(&narrow.motion, &less(&octave, &kept));
+            let tried = Smooth { motion, half: narrow.half, share: 2.0 * frequency * self.step };
+            let of_tried = risk(&tried);
+            if of_tried < least {
+                (least, best) = (of_tried, tried);
             }
+            frequency /= APART;
         }
-        if noisy.len() < MIXED {
-            noisy.push(octave);
-        }
-        fast = slow;
-        slower = poly(2 * half);
+        best
     }
-    let [displacement, velocity] = [0, 1].map(|k| each(&best.motion[k], &taken[k], |a, b| a - b));
-    let noisy = std::iter::once(taken).chain(noisy).collect();
-    Calmed { displacement, velocity, noisy }
+
+    /// Octave by octave from a motion and the next slower one on: what is noise there, and what the fastest have
+    /// besides.
+    fn of_octaves(&self, fastest: &Smooth, next: Smooth) -> (Motion, Vec<Motion>) {
+        let mut mixed = Vec::new();
+        let mut taken = [0, 1].map(|_| vec![0.0; self.time.len()]);
+        let (mut fast, mut slower) = (fastest.clone(), Some(next));
+        while let Some(slow) = slower {
+            // The kernel of a least squares fit is a polynomial, which a narrower fit keeps.
+            let noise = self.variance * (fast.share - slow.share).max(0.0);
+            let mut octave = less(&fast.motion, &slow.motion);
+            let shares: Vec<f64> = around(&octave[0], 2 * slow.half)
+                .into_iter()
+                .map(|square| if square > NOISE * noise { (NOISE * noise / square).powi(2) } else { 1.0 })
+                .collect();
+            for (taken, octave) in taken.iter_mut().zip(&mut octave) {
+                for ((taken, octave), share) in taken.iter_mut().zip(octave).zip(&shares) {
+                    *taken += share * *octave;
+                    *octave *= 1.0 - share;
+                }
+            }
+            if mixed.len() < MIXED {
+                mixed.push(octave);
+            }
+            slower = self.smooth(2 * slow.half);
+            fast = slow;
+        }
+        (taken, mixed)
+    }
 }
 
 /// Mean square over so many samples on either side.

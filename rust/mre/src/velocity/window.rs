@@ -2,7 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::local::{Local, NARROWEST, TERMS};
+use super::local::{Local, NARROWEST, Polynomial, TERMS};
+use super::stencil::Stencil;
 
 /// Samples over which the window is chosen; more add cost, not certainty.
 const TRIAL_SAMPLES: usize = 4_000;
@@ -48,10 +49,18 @@ impl Window {
         self.half as f64 / self.terms as f64
     }
 
+    /// Share that a sample has in its own value, in the middle of an even window.
+    pub(super) fn leverage(self) -> f64 {
+        let place: Vec<f64> = (0..=2 * self.half).map(|k| k as f64).collect();
+        let middle = self.half as f64;
+        Polynomial::around(&place, &place, self.half, self.half, self.terms).at(middle, middle).leverage
+    }
+
     /// Velocity and displacement at every sample.
     pub(super) fn over(self, time: &[f64], displacement: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let fits = Fits::new(self, time, displacement);
         let local = |i: usize| {
-            let local = Local::fit(time, displacement, i, self.half, self.terms);
+            let local = fits.at(i);
             (local.slope, local.value)
         };
         (0..time.len()).into_par_iter().map(local).unzip()
@@ -59,16 +68,50 @@ impl Window {
 
     fn cross_validation(self, time: &[f64], displacement: &[f64], stride: usize) -> f64 {
         let picked: Vec<usize> = (0..time.len()).step_by(stride).collect();
+        let fits = Fits::new(self, time, displacement);
         let errors: Vec<(f64, f64)> = picked
             .par_iter()
             .map(|&i| {
-                let local = Local::fit(time, displacement, i, self.half, self.terms);
+                let local = fits.at(i);
                 ((displacement[i] - local.value).powi(2), local.leverage)
             })
             .collect();
         let count = errors.len() as f64;
         let (squares, leverage) = errors.iter().fold((0.0, 0.0), |sum, e| (sum.0 + e.0, sum.1 + e.1));
         (squares / count) / (1.0 - leverage / count).powi(2)
+    }
+}
+
+/// The fits of one window to a series.
+struct Fits<'a> {
+    window: Window,
+    time: &'a [f64],
+    displacement: &'a [f64],
+    /// Of the first and of the last window: those of all samples near an end.
+    ends: [Polynomial; 2],
+    /// Of all others on an even grid.
+    middle: Option<Stencil>,
+}
+
+impl<'a> Fits<'a> {
+    fn new(window: Window, time: &'a [f64], displacement: &'a [f64]) -> Self {
+        let Window { half, terms } = window;
+        let ends = [0, time.len() - 1].map(|i| Polynomial::around(time, displacement, i, half, terms));
+        Self { window, time, displacement, ends, middle: Stencil::new(time, half, terms) }
+    }
+
+    fn at(&self, i: usize) -> Local {
+        let Window { half, terms } = self.window;
+        let (time, displacement) = (self.time[i], self.displacement[i]);
+        if i < half {
+            self.ends[0].at(time, displacement)
+        } else if i + half >= self.time.len() {
+            self.ends[1].at(time, displacement)
+        } else if let Some(stencil) = &self.middle {
+            stencil.fit(&self.displacement[i - half..=i + half])
+        } else {
+            Polynomial::around(self.time, self.displacement, i, half, terms).at(time, displacement)
+        }
     }
 }
 

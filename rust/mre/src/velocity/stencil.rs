@@ -1,0 +1,73 @@
+//! Local polynomials in the middle of their window, on an even grid: the same weights for every sample.
+
+use super::local::{Column, Local, TERMS, chebyshev, first, normal_matrix, slopes};
+use crate::kernel::filter::dot;
+
+/// Times further than this share of a step from the even grid are taken as they are.
+const OFF_THE_GRID: f64 = 1e-4;
+
+/// Weights of the samples of a window.
+pub(super) struct Stencil {
+    value: Vec<f64>,
+    slope: Vec<f64>,
+    leverage: f64,
+}
+
+impl Stencil {
+    /// Of `half` samples on either side and so many `terms`; `None` where the times are not even.
+    pub(super) fn new(time: &[f64], half: usize, terms: usize) -> Option<Self> {
+        let last = time.len() - 1;
+        let step = (time[last] - time[0]) / last as f64;
+        let even = |(i, t): (usize, &f64)| (t - time[0] - step * i as f64).abs() <= OFF_THE_GRID * step;
+        if !time.iter().enumerate().all(even) {
+            return None;
+        }
+        let places: Vec<f64> = (0..=2 * half).map(|j| j as f64 / half as f64 - 1.0).collect();
+        let mut moments = [0.0; 2 * TERMS - 1];
+        for place in &places {
+            let terms: [f64; 2 * TERMS - 1] = chebyshev(*place);
+            moments.iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
+        }
+        let terms = terms.min(2 * half);
+        let factor = normal_matrix(&moments, terms).cholesky()?;
+        let here = first(chebyshev(0.0), terms);
+        let (value, slope) = (factor.solve(&here), factor.solve(&first(slopes(0.0), terms)));
+        let scale = half as f64 * step;
+        let weights = |found: &Column, scale: f64| -> Vec<f64> {
+            places.iter().map(|place| found.dot(&first(chebyshev(*place), terms)) / scale).collect()
+        };
+        Some(Self { value: weights(&value, 1.0), slope: weights(&slope, scale), leverage: value.dot(&here) })
+    }
+
+    /// The fit to the samples of one window.
+    pub(super) fn fit(&self, samples: &[f64]) -> Local {
+        let [value, slope] = [&self.value, &self.slope].map(|weights| dot(weights, samples));
+        Local { value, slope, leverage: self.leverage }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::velocity::local::Polynomial;
+
+    #[test]
+    fn the_middle_of_an_even_window_is_the_fit_at_any_times() {
+        let time: Vec<f64> = (0..500).map(|i| 0.3 + 0.004 * f64::from(i)).collect();
+        let x: Vec<f64> = time.iter().map(|t| 3.0 + 2.0 * (5.0 * t).sin() + (61.0 * t).cos()).collect();
+        for (half, terms) in [(4, 8), (5, 2), (17, 8), (40, 4), (200, 8)] {
+            let stencil = Stencil::new(&time, half, terms);
+            for i in [half, 230, 499 - half] {
+                let slow = Polynomial::around(&time, &x, i, half, terms).at(time[i], x[i]);
+                let apart = stencil.as_ref().map_or(f64::INFINITY, |stencil| {
+                    let fast = stencil.fit(&x[i - half..=i + half]);
+                    let [value, slope] = [fast.value - slow.value, fast.slope - slow.slope];
+                    value.abs().max(0.01 * slope.abs()).max((fast.leverage - slow.leverage).abs())
+                });
+                assert!(apart < 1e-12, "{half} {terms} {i} {apart}");
+            }
+        }
+        let uneven: Vec<f64> = time.iter().map(|t| t + 0.001 * (40.0 * t).sin()).collect();
+        assert!(Stencil::new(&uneven, 17, 8).is_none());
+    }
+}
