@@ -24,6 +24,10 @@ def half(call: Callable[[], object], *says: str) -> Call:
     return Call(call, says, mre_core.InputError)
 
 
+def problem() -> object:
+    return mre_core.Problem(mre_core.Recording(**SERIES), model=HALF)
+
+
 def swarm() -> object:
     return mre_core.pso(lambda points: np.sum(points**2, axis=1), {HALF: (0, 1)})
 
@@ -35,6 +39,10 @@ HALVES = {
     "from_dataframe: a name": half(
         lambda: mre_core.from_dataframe(Frame(FRAME), name=HALF), "name is '?'", "half of a character"
     ),
+    "Recording: a name": Call(
+        lambda: mre_core.Recording(**SERIES, name=HALF), ("'name'", "half of a character"), TypeError
+    ),
+    "Problem: a model": Call(problem, ("'model'", "half of a character"), TypeError),
     "batch: what to exclude": half(lambda: batch(exclude=HALF), "exclude is '?'", "half of a character"),
     "swarm: a name of bounds": half(swarm, "a name of bounds is '?'", "half of a character"),
     "effect: an id": half(lambda: mre_core.Effect(HALF, "x", {}), "id or law of an effect is '?'"),

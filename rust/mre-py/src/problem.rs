@@ -14,7 +14,7 @@ use crate::bounds::by_name;
 use crate::error::{setting, to_python};
 use crate::recording::Recording;
 use crate::run::{Link, here, in_pool};
-use crate::scalars::{Number, Whole};
+use crate::scalars::{Number, Text, Whole};
 use crate::stream;
 
 /// Fitness of a model's parameters on recordings: eq. 5 of Yu, Li and Li (ISARC 2014); immutable.
@@ -62,11 +62,14 @@ fn to_weights(value: Option<&Bound<'_, PyAny>>) -> PyResult<Weights> {
 #[pymethods]
 impl Problem {
     #[new]
-    #[pyo3(signature = (recordings, model="sinh", bounds=None, *, weights=None))]
+    #[pyo3(
+        signature = (recordings, model=Text("sinh".into()), bounds=None, *, weights=None),
+        text_signature = "(recordings, model='sinh', bounds=None, *, weights=None)"
+    )]
     fn new(
         py: Python<'_>,
         recordings: &Bound<'_, PyAny>,
-        model: &str,
+        model: Text,
         bounds: Option<&Bound<'_, PyAny>>,
         weights: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<Self> {
@@ -74,7 +77,8 @@ impl Problem {
             Ok(single) => vec![single],
             Err(_) => recordings.extract::<Vec<Recording>>()?,
         };
-        let model = Model::named(model).map_err(to_python)?;
+        let Text(model) = model;
+        let model = Model::named(&model).map_err(to_python)?;
         let bounds = by_name(bounds)?;
         let weights = to_weights(weights)?;
         let cores = recordings.iter().map(|r| Arc::clone(&r.inner)).collect();

@@ -11,7 +11,7 @@ use pyo3::types::{PyDict, PyTuple};
 use crate::array::vector;
 use crate::error::to_python;
 use crate::run::in_pool;
-use crate::scalars::Number;
+use crate::scalars::{Number, Text};
 
 /// A validated recording; immutable.
 ///
@@ -68,7 +68,10 @@ fn to_numpy<'py>(py: Python<'py>, condition: &Condition) -> PyResult<Option<Boun
 #[pymethods]
 impl Recording {
     #[new]
-    #[pyo3(signature = (time, displacement, force, *, velocity=None, current=None, temperature=None, simulated=None, name=""))]
+    #[pyo3(
+        signature = (time, displacement, force, *, velocity=None, current=None, temperature=None, simulated=None, name=Text::default()),
+        text_signature = "(time, displacement, force, *, velocity=None, current=None, temperature=None, simulated=None, name='')"
+    )]
     #[allow(clippy::too_many_arguments)] // the columns of a recording
     fn new(
         time: &Bound<'_, PyAny>,
@@ -78,7 +81,7 @@ impl Recording {
         current: Option<&Bound<'_, PyAny>>,
         temperature: Option<&Bound<'_, PyAny>>,
         simulated: Option<&Bound<'_, PyAny>>,
-        name: &str,
+        name: Text,
     ) -> PyResult<Self> {
         let series = Series {
             time: vector("time", time)?,
@@ -88,7 +91,7 @@ impl Recording {
             simulated: simulated.map(|v| vector("simulated", v)).transpose()?,
             current: condition("current", current)?,
             temperature: condition("temperature", temperature)?,
-            name: name.to_owned(),
+            name: name.0,
         };
         // A pool of its own: the global one does not survive a fork.
         wrap(in_pool(time.py(), None, None, true, |_| Core::new(series))?.0)
