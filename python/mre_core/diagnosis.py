@@ -118,8 +118,8 @@ class Diagnosis:
     a mismatch was found and nothing named (`unexplained`), and how often each effect was named
     (`by_effect`)."""
     left_out: Mapping[str, int] = field(default_factory=dict)
-    """Samples by recording that no fit, test or rms counts: near corners of a motion without a recorded
-    velocity, where none can be derived."""
+    """Samples by recording that no fit, test or rms counts: near corners and ends of a motion without a
+    recorded velocity, where the one that can be derived is wrong or noisy."""
     interrupted: bool = False
     """True where Ctrl-C ended it early: what was not reached is empty, or nan."""
 

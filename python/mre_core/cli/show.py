@@ -61,7 +61,8 @@ def print_diagnosis(found: "Diagnosis") -> None:
     if found.left_out:
         count = sum(found.left_out.values())
         out.print(
-            f"{count} samples near corners of the motion are left out: no velocity can be derived there"
+            f"{count} samples near corners and ends of a motion are left out: "
+            "the velocity that can be derived there is wrong or noisy"
         )
     _print_comparison(found, out)
     if found.blank is not None:

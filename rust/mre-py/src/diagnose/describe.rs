@@ -53,7 +53,7 @@ pub(super) fn describe(
 
 /// Samples that told nothing, by recording.
 fn left_out(assembly: &Assembly) -> Vec<usize> {
-    let ranges = assembly.campaign().corners();
+    let ranges = assembly.campaign().left_out();
     ranges.map(|of_one| of_one.iter().map(ExactSizeIterator::len).sum()).collect()
 }
 

@@ -66,10 +66,10 @@ impl Campaign {
         Self { doubts, ..self }
     }
 
-    /// Samples near a corner of a motion whose velocity is derived, by recording: it is wrong there, and no fit
-    /// counts them.
-    pub fn corners(&self) -> impl Iterator<Item = &[Range<usize>]> {
-        self.doubts.iter().map(|doubts| doubts.corners.as_slice())
+    /// Samples near a corner or an end of a motion whose velocity is derived, by recording: it is wrong there, and no
+    /// fit counts them.
+    pub fn left_out(&self) -> impl Iterator<Item = &[Range<usize>]> {
+        self.doubts.iter().map(|doubts| doubts.left_out.as_slice())
     }
 
     /// In what the motion of each recording is not to be trusted.

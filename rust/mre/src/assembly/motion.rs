@@ -6,11 +6,15 @@ use std::sync::Arc;
 use crate::recording::Recording;
 use crate::velocity;
 
+/// Share of half a window at either end of a recording, where a derived velocity has more than twice the noise that
+/// it has elsewhere: an effect that changes with time would seem to explain that.
+const END: f64 = 0.25;
+
 /// In what a motion whose velocity is derived is not to be trusted.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Doubts {
-    /// Samples near a corner: the velocity is wrong there, and no fit counts them.
-    pub(crate) corners: Vec<Range<usize>>,
+    /// Samples near a corner or an end, in rising order: the velocity is wrong there, and no fit counts them.
+    pub(crate) left_out: Vec<Range<usize>>,
     /// Parts of the displacement, mm, and of the velocity, mm/s, that are noise or may hold some. The force does not
     /// follow it, and an effect that attenuates what is fast would seem to explain that.
     pub(crate) noisy: Vec<[Vec<f64>; 2]>,
@@ -26,15 +30,23 @@ pub(super) fn of_one_motion(recording: &Recording) -> (Arc<Recording>, Doubts) {
         let derived = velocity::from_displacement(time, x);
         if derived.corners.is_empty() {
             let velocity::Calmed { displacement, velocity, noisy } = velocity::calmed(time, x, &derived);
-            (displacement, velocity, Doubts { corners: Vec::new(), noisy })
+            (displacement, velocity, Doubts { left_out: ends(time, derived.window), noisy })
         } else {
             // Across a corner a longer window takes off motion.
             let velocity::Derived { displacement, velocity, corners, .. } = derived;
-            (displacement, velocity, Doubts { corners, noisy: Vec::new() })
+            (displacement, velocity, Doubts { left_out: corners, noisy: Vec::new() })
         }
     } else {
         let v = velocity::smoothed(time, v);
         (velocity::without_noise(time, x, &v), v, Doubts::default())
     };
     (Arc::new(recording.seen_with(displacement, velocity, None)), doubts)
+}
+
+/// Samples at the ends of a recording whose velocity is derived over this window in s.
+fn ends(time: &[f64], window: f64) -> Vec<Range<usize>> {
+    let n = time.len();
+    let step = (time[n - 1] - time[0]) / (n - 1) as f64;
+    let count = (END * 0.5 * window / step).ceil() as usize;
+    vec![0..count, n - count..n]
 }

@@ -21,7 +21,7 @@ pub(super) struct LeftOut<'a> {
 impl<'a> LeftOut<'a> {
     pub(super) fn of(campaign: &'a Campaign, r: usize) -> Self {
         let recording = &campaign.recordings()[r];
-        Self { ranges: &campaign.doubts()[r].corners, scored: recording.scored(), length: recording.len() }
+        Self { ranges: &campaign.doubts()[r].left_out, scored: recording.scored(), length: recording.len() }
     }
 
     /// Rows that count less the samples that tell nothing.
