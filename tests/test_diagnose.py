@@ -140,7 +140,7 @@ def test_pickle(relaxing: Diagnosis) -> None:
     np.testing.assert_array_equal(copy.histories[0].final, relaxing.histories[0].final)
 
 
-def test_effects_beside_a_simulated_force_are_not_simulated() -> None:
+def test_effects_are_added_to_a_simulated_force() -> None:
     [plain, *_] = campaign()
     given = with_series(plain, simulated=plain.displacement)
     mass = Effect("inertia", "moving mass", {"m": 3.0})
@@ -149,8 +149,12 @@ def test_effects_beside_a_simulated_force_are_not_simulated() -> None:
     )
     bare, heavy = (Model("simulated", (Level(None, {}),), {}, effects, sizes) for effects in ((), (mass,)))
     np.testing.assert_array_equal(mre_core.simulate(bare, given), plain.displacement)
-    with pytest.raises(InputError, match=r"wanted a base with parameters; .* final_N in residuals\.csv"):
-        mre_core.simulate(heavy, given)
+    spring = Model("kelvin_voigt", (Level(None, {"k0": 1.0, "c0": 0.0, "F0": 0.0}),), {}, (mass,), sizes)
+    np.testing.assert_allclose(
+        mre_core.simulate(heavy, given), mre_core.simulate(spring, plain), rtol=0, atol=1e-9
+    )
+    with pytest.raises(InputError, match=f"'{plain.name}' has no simulated force"):
+        mre_core.simulate(heavy, plain)
 
 
 def test_fixed_and_simulated_are_the_same_question() -> None:
@@ -169,8 +173,7 @@ def test_fixed_and_simulated_are_the_same_question() -> None:
         assert found.effects[0].parameters["k_m"].value == pytest.approx(K_M, rel=0.01)
         for recording, history in zip(recordings, found.histories, strict=True):
             np.testing.assert_array_equal(history.base, recording.simulated)
-    for recording, history in zip(recordings, fixed.histories, strict=True):
-        np.testing.assert_allclose(mre_core.simulate(fixed.model, recording), history.final, atol=1e-9)
+            np.testing.assert_allclose(mre_core.simulate(found.model, recording), history.final, atol=1e-9)
 
 
 def test_the_true_model_held_is_adequate() -> None:

@@ -278,17 +278,10 @@ def simulate(model: Model | str | os.PathLike[str], recording: Recording) -> NDA
         model = Model.load(model)
     for message in beyond_tested(model, recording):
         warnings.warn(message, ExtrapolationWarning, stacklevel=2)
-    effects = [effect.given() for effect in model.effects]
-    if model.name != SIMULATED:
-        levels, moved = model.given_for(recording)
-        return _core.simulate(model.name, levels, moved, effects, model.sizes or None)
-    if recording.simulated is None:
+    if model.name == SIMULATED and recording.simulated is None:
         raise InputError(
             f"recording '{recording.name}' has no simulated force", wanted="a column simulated_force_N"
         )
-    if effects:
-        raise InputError(
-            "the model has effects beside a simulated force",
-            wanted="a base with parameters; their sum is final_N in residuals.csv",
-        )
-    return recording.simulated
+    effects = [effect.given() for effect in model.effects]
+    levels, moved = model.given_for(recording)
+    return _core.simulate(model.name, levels, moved, effects, model.sizes or None)

@@ -1,6 +1,6 @@
 //! Models by name, and the simulation of an identified device.
 
-use mre::assembly;
+use mre::assembly::{self, Source};
 use mre::device::{Device, Level};
 use mre::extent::Extent;
 use mre::model::{self, Model};
@@ -28,6 +28,9 @@ pub(crate) fn parameters(model: &str) -> PyResult<Vec<(String, &'static str)>> {
     Ok(model.parameters(&Extent::UNIT).into_iter().map(|p| (p.name, p.unit)).collect())
 }
 
+/// Name of a model that is the user's own simulation.
+const SIMULATED: &str = "simulated";
+
 pub(crate) type Levels = Vec<(Option<f64>, Vec<f64>)>;
 
 pub(crate) fn device(model: &str, levels: Levels) -> PyResult<Device> {
@@ -41,8 +44,8 @@ pub(crate) fn check(model: &str, levels: Levels) -> PyResult<()> {
     device(model, levels).map(|_| ())
 }
 
-/// Restoring force in N of a model with parameters at levels of the current, and with effects, over a
-/// recording. Effects are `(id, law, coefficients, shapes)`; `sizes` are those of the recordings that they
+/// Restoring force in N of a model with parameters at levels of the current, or the simulated one of the
+/// recording, with effects. Effects are `(id, law, coefficients, shapes)`; `sizes` are those of the recordings that they
 /// were fitted to.
 #[pyfunction]
 #[pyo3(signature = (model, levels, recording, effects=Vec::new(), sizes=None))]
@@ -55,7 +58,8 @@ pub(crate) fn simulate<'py>(
     effects: Vec<Given>,
     sizes: Option<Bound<'py, PyMapping>>,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-    let device = device(model, levels)?;
+    let device = if model == SIMULATED { None } else { Some(device(model, levels)?) };
+    let source = device.as_ref().map_or(Source::Simulated, Source::Device);
     let additions = effects.into_iter().map(effects::addition).collect::<PyResult<Vec<_>>>()?;
     let sizes = match sizes {
         Some(sizes) => effects::sizes(&sizes)?,
@@ -63,7 +67,7 @@ pub(crate) fn simulate<'py>(
         None => return Err(setting("sizes", "missing", "the sizes of the recordings behind the effects")),
     };
     // A pool of its own: the global one does not survive a fork.
-    let job = |_: &_| assembly::simulate(&device, &additions, &sizes, &recording.inner);
+    let job = |_: &_| assembly::simulate(source, &additions, &sizes, &recording.inner);
     let force = in_pool(py, Some(Whole(1)), None, true, job)?.0.map_err(to_python)?;
     Ok(PyArray1::from_vec(py, force))
 }

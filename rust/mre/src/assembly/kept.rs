@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::simulate::{Addition, simulate};
+use super::simulate::{Addition, Source, simulate};
 use crate::device::Device;
 use crate::effect::Sizes;
 use crate::error::Result;
@@ -43,7 +43,8 @@ impl Kept {
     pub(super) fn parts(&self, recording: &Recording) -> Result<Vec<(Part, Vec<f64>)>> {
         let mut parts = self.device.parts(recording)?;
         if let Some((effects, sizes)) = &self.effects {
-            let mut added = simulate(&self.device, effects, sizes, &Arc::new(recording.clone()))?;
+            let mut added =
+                simulate(Source::Device(&self.device), effects, sizes, &Arc::new(recording.clone()))?;
             for (_, part) in &parts {
                 added.iter_mut().zip(part).for_each(|(sum, value)| *sum -= value);
             }

@@ -1,4 +1,4 @@
-//! Simulation of a device with effects: its force, without drift, interference and clipping.
+//! Simulation with effects: the force, without drift, interference and clipping.
 
 use std::sync::Arc;
 
@@ -29,31 +29,60 @@ pub struct Addition {
     pub shape: Vec<f64>,
 }
 
+/// What effects act on.
+#[derive(Debug, Clone, Copy)]
+pub enum Source<'a> {
+    /// A device with parameters.
+    Device(&'a Device),
+    /// The force that a recording has from a user's own simulation.
+    Simulated,
+}
+
+impl Source<'_> {
+    fn force(self, recording: &Recording) -> Result<Vec<f64>> {
+        match self {
+            Self::Device(device) => device.simulate(recording),
+            Self::Simulated => recording.simulated().map(<[f64]>::to_vec).ok_or_else(|| {
+                let text = "there is no simulated force, wanted a column simulated_force_N".into();
+                Error::Recording(text).in_recording(recording.name())
+            }),
+        }
+    }
+
+    /// By part; a simulated one is all stiffness, as in a diagnosis beside it.
+    fn parts(self, seen: &Recording) -> Result<Vec<(Part, Vec<f64>)>> {
+        match self {
+            Self::Device(device) => device.parts(seen),
+            Self::Simulated => Ok(vec![(Part::Stiffness, self.force(seen)?)]),
+        }
+    }
+}
+
 impl std::fmt::Debug for Addition {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{} {:?} {:?}", self.effect.about().law, self.coefficients, self.shape)
     }
 }
 
-/// Restoring force in N of a device with effects at every sample of a recording.
+/// Restoring force in N of a device, or a simulated one, with effects at every sample of a recording.
 ///
 /// `sizes` are those of the recordings that the effects were fitted to.
 ///
 /// # Errors
-/// As [`Device::simulate`]; a force that is not finite.
+/// As [`Device::simulate`]; no simulated force; a force that is not finite.
 pub fn simulate(
-    device: &Device,
+    source: Source,
     additions: &[Addition],
     sizes: &Sizes,
     recording: &Arc<Recording>,
 ) -> Result<Vec<f64>> {
-    let alone = device.simulate(recording)?;
+    let alone = source.force(recording)?;
     if additions.is_empty() {
         return Ok(alone);
     }
     let campaign = Campaign::with_sizes(vec![recording.clone()], sizes.clone());
     let flexibility = additions.iter().filter_map(|a| a.effect.flexibility(&a.shape)).reduce(|a, b| a + b);
-    let pass = |known: &[f64]| pass(device, additions, recording, &campaign.scene(0, &alone, known));
+    let pass = |known: &[f64]| pass(source, additions, recording, &campaign.scene(0, &alone, known));
     let mut force = pass(&alone)?;
     if let Some(flexibility) = flexibility {
         let mut known = alone.clone();
@@ -82,8 +111,8 @@ pub fn simulate(
     }
 }
 
-/// The force of the device where its effects see a scene.
-fn pass(device: &Device, additions: &[Addition], recording: &Recording, scene: &Scene) -> Result<Vec<f64>> {
+/// The force where the effects see a scene.
+fn pass(source: Source, additions: &[Addition], recording: &Recording, scene: &Scene) -> Result<Vec<f64>> {
     let mut seen = recording.clone();
     let mut factors: Vec<Factors> = Vec::new();
     for Addition { effect, shape, .. } in additions {
@@ -100,7 +129,7 @@ fn pass(device: &Device, additions: &[Addition], recording: &Recording, scene: &
         }
     }
     let mut force = vec![0.0; recording.len()];
-    for (part, column) in device.parts(&seen)? {
+    for (part, column) in source.parts(&seen)? {
         for (i, value) in column.into_iter().enumerate() {
             let share: f64 = factors.iter().map(|f| factor(f, part, i)).product();
             force[i] += share * value;
