@@ -71,6 +71,18 @@ def test_of_a_smooth_motion_only_the_ends_are_left_out() -> None:
     assert 0 < found.left_out["derived"] < 0.05 * t.size
 
 
+def test_what_is_not_scored_is_not_left_out_as_well() -> None:
+    t = np.arange(3000) / 200
+    rng = np.random.default_rng(4)
+    x = 5 * np.minimum(t / 3, 1) * np.sin(2 * np.pi * t)
+    force = 3 * x + 0.2 * np.gradient(x, t) + 0.1 * rng.normal(size=t.size)
+    whole = Recording(t, x + 0.005 * rng.normal(size=t.size), force, name="ramp")
+    without_start = whole.exclude("start_transient")
+    assert without_start.scored[0] > 0.1 * t.size
+    found = [diagnose(r, base="kelvin_voigt", seed=1) for r in (whole, without_start)]
+    assert found[1].left_out["ramp"] == found[0].left_out["ramp"] / 2
+
+
 @pytest.mark.parametrize("seed", [0, 4])
 def test_noisy_ends_are_no_missing_physics(seed: int) -> None:
     rng = np.random.default_rng(seed)

@@ -51,10 +51,17 @@ pub(super) fn describe(
     })
 }
 
-/// Samples that told nothing, by recording.
+/// Samples that count and told nothing, by recording.
 fn left_out(assembly: &Assembly) -> Vec<usize> {
-    let ranges = assembly.campaign().left_out();
-    ranges.map(|of_one| of_one.iter().map(ExactSizeIterator::len).sum()).collect()
+    let campaign = assembly.campaign();
+    campaign
+        .left_out()
+        .zip(campaign.recordings())
+        .map(|(ranges, recording)| {
+            let scored = recording.scored();
+            ranges.iter().map(|r| (r.start.max(scored.start)..r.end.min(scored.end)).len()).sum()
+        })
+        .collect()
 }
 
 fn blank(b: &Blank) -> Value {

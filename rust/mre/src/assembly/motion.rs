@@ -6,14 +6,14 @@ use std::sync::Arc;
 use crate::recording::Recording;
 use crate::velocity;
 
-/// Share of half a window at either end of a recording, where a derived velocity has more than twice the noise that
-/// it has elsewhere: an effect that changes with time would seem to explain that.
-const END: f64 = 0.25;
+/// A derived velocity has about twice the noise and more within one part in so many of half a window from an end of its
+/// recording: an effect that changes with time would seem to explain that.
+const END: usize = 4;
 
 /// In what a motion whose velocity is derived is not to be trusted.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Doubts {
-    /// Samples near a corner or an end, in rising order: the velocity is wrong there, and no fit counts them.
+    /// Samples near a corner or an end, in rising order: the velocity is wrong or noisy there, and no fit counts them.
     pub(crate) left_out: Vec<Range<usize>>,
     /// Parts of the displacement, mm, and of the velocity, mm/s, that are noise or may hold some. The force does not
     /// follow it, and an effect that attenuates what is fast would seem to explain that.
@@ -47,6 +47,6 @@ pub(super) fn of_one_motion(recording: &Recording) -> (Arc<Recording>, Doubts) {
 fn ends(time: &[f64], window: f64) -> Vec<Range<usize>> {
     let n = time.len();
     let step = (time[n - 1] - time[0]) / (n - 1) as f64;
-    let count = (END * 0.5 * window / step).ceil() as usize;
+    let count = ((0.5 * window / step).round() as usize).div_ceil(END);
     vec![0..count, n - count..n]
 }

@@ -52,12 +52,13 @@ pub fn calmed(time: &[f64], measured: &[f64], derived: &Derived) -> Calmed {
     Calmed { displacement, velocity, noisy: std::iter::once(taken).chain(mixed).collect() }
 }
 
-/// A motion from local polynomials of this half window, and the share of white noise that is left in its displacement,
-/// mean square.
+/// A motion that was smoothed.
 #[derive(Clone)]
 struct Smooth {
     motion: Motion,
+    /// Half window of the local polynomials, before any low pass.
     half: usize,
+    /// Share of white noise that is left in the displacement, mean square.
     share: f64,
 }
 

@@ -1,12 +1,13 @@
 //! Local polynomials in the middle of their window, on an even grid: the same weights for every sample.
 
 use super::local::{Column, Local, TERMS, chebyshev, first, normal_matrix, slopes};
-use crate::kernel::filter::dot;
 
-/// Times further than this share of a step from the even grid are taken as they are.
-const OFF_THE_GRID: f64 = 1e-4;
+/// Times further than this share of a step from the even grid are taken as they are: rounded ones are not.
+const ROUNDED: f64 = 1e-3;
+/// Samples at a time.
+const LANES: usize = 8;
 
-/// Weights of the samples of a window.
+/// Weights of a window, from its middle on: those of the value are even and those of the slope odd.
 pub(super) struct Stencil {
     value: Vec<f64>,
     slope: Vec<f64>,
@@ -18,7 +19,7 @@ impl Stencil {
     pub(super) fn new(time: &[f64], half: usize, terms: usize) -> Option<Self> {
         let last = time.len() - 1;
         let step = (time[last] - time[0]) / last as f64;
-        let even = |(i, t): (usize, &f64)| (t - time[0] - step * i as f64).abs() <= OFF_THE_GRID * step;
+        let even = |(i, t): (usize, &f64)| (t - time[0] - step * i as f64).abs() <= ROUNDED * step;
         if !time.iter().enumerate().all(even) {
             return None;
         }
@@ -34,15 +35,30 @@ impl Stencil {
         let (value, slope) = (factor.solve(&here), factor.solve(&first(slopes(0.0), terms)));
         let scale = half as f64 * step;
         let weights = |found: &Column, scale: f64| -> Vec<f64> {
-            places.iter().map(|place| found.dot(&first(chebyshev(*place), terms)) / scale).collect()
+            places[half + 1..]
+                .iter()
+                .map(|place| found.dot(&first(chebyshev(*place), terms)) / scale)
+                .collect()
         };
         Some(Self { value: weights(&value, 1.0), slope: weights(&slope, scale), leverage: value.dot(&here) })
     }
 
-    /// The fit to the samples of one window.
+    /// The fit to the samples of one window. Where nothing moves, the slope is exactly zero.
     pub(super) fn fit(&self, samples: &[f64]) -> Local {
-        let [value, slope] = [&self.value, &self.slope].map(|weights| dot(weights, samples));
-        Local { value, slope, leverage: self.leverage }
+        let half = self.value.len();
+        let base = samples[half];
+        let (before, after) = (&samples[..half], &samples[half + 1..]);
+        let (mut value, mut slope) = ([0.0; LANES], [0.0; LANES]);
+        for first in (0..half).step_by(LANES) {
+            for lane in 0..LANES.min(half - first) {
+                let k = first + lane;
+                let (a, b) = (before[half - 1 - k] - base, after[k] - base);
+                value[lane] += self.value[k] * (a + b);
+                slope[lane] += self.slope[k] * (b - a);
+            }
+        }
+        let [value, slope] = [value, slope].map(|lanes| lanes.iter().sum::<f64>());
+        Local { value: base + value, slope, leverage: self.leverage }
     }
 }
 
@@ -66,6 +82,10 @@ mod tests {
                 });
                 assert!(apart < 1e-12, "{half} {terms} {i} {apart}");
             }
+        }
+        if let Some(stencil) = Stencil::new(&time, 17, TERMS) {
+            let held = stencil.fit(&[0.1; 35]);
+            assert_eq!((held.value, held.slope), (0.1, 0.0));
         }
         let uneven: Vec<f64> = time.iter().map(|t| t + 0.001 * (40.0 * t).sin()).collect();
         assert!(Stencil::new(&uneven, 17, 8).is_none());
