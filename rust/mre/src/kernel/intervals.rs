@@ -146,7 +146,8 @@ fn middles(time: &[f64], velocity: &[f64]) -> Vec<f64> {
             let h = time[i + 1] - time[i];
             let (begin, end) = (velocity[i], velocity[i + 1]);
             let most = MOST_BENT * begin.abs().max(end.abs());
-            0.5 * (begin + end) - (0.25 * h * h * curve).clamp(-most, most)
+            // No clamp: it panics where a diverged motion is not a number.
+            0.5 * (begin + end) - (0.25 * h * h * curve).max(-most).min(most)
         })
         .collect()
 }
@@ -154,6 +155,12 @@ fn middles(time: &[f64], velocity: &[f64]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_not_a_number_stays_none() {
+        let lost = Plan::of(&[0.0, 1.0, 2.0, 3.0], &[f64::NAN; 4]);
+        assert!(lost.after(1).iter().all(|interval| interval.part(0.0, 1.0).iter().all(|v| v.is_nan())));
+    }
 
     #[test]
     fn a_cubic_is_met_halfway_and_a_parabola_in_sub_steps() {
