@@ -11,7 +11,7 @@ use crate::bounds::read_start;
 use crate::error::to_python;
 use crate::outcome::{history_to_python, name_of};
 use crate::problem::Problem;
-use crate::run::{Ended, Link, in_pool, raises};
+use crate::run::{Ended, Link, here, in_pool, raises};
 use crate::scalars::Whole;
 use crate::settings::{RunOptions, fish, run_options};
 
@@ -33,7 +33,12 @@ pub(crate) fn fit_exact<'py>(
     on_interrupt: &str,
 ) -> PyResult<Outcome<'py>> {
     let raise = raises(on_interrupt)?;
-    let (fit, ended) = in_pool(py, threads, None, raise, |link| fit::exact(&problem.inner, link.cancel()))?;
+    let job = |link: &Link| fit::exact(&problem.inner, link.cancel());
+    let (fit, ended) = if certified::is_quick(&problem.inner) {
+        (here(py, threads, job)?, Ended::ByItself)
+    } else {
+        in_pool(py, threads, None, raise, job)?
+    };
     outcome(py, fit, ended)
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mre::fitness::{Problem as Core, Weights};
+use mre::fitness::{Problem as Core, Weights, is_small};
 use mre::model::Model;
 use numpy::PyArray1;
 use pyo3::exceptions::PyTypeError;
@@ -81,10 +81,12 @@ impl Problem {
         let model = Model::named(&model).map_err(to_python)?;
         let bounds = by_name(bounds)?;
         let weights = to_weights(weights)?;
-        let cores = recordings.iter().map(|r| Arc::clone(&r.inner)).collect();
-        // A pool of its own: the global one does not survive a fork.
+        let cores: Vec<_> = recordings.iter().map(|r| Arc::clone(&r.inner)).collect();
+        let small = is_small(&cores);
         let job = |_: &Link| Core::new(cores, model, &bounds, &weights);
-        let inner = in_pool(py, None, None, true, job)?.0.map_err(to_python)?;
+        // A pool of its own: the global one does not survive a fork.
+        let made = if small { here(py, None, job)? } else { in_pool(py, None, None, true, job)?.0 };
+        let inner = made.map_err(to_python)?;
         Ok(Self { inner: Arc::new(inner), recordings })
     }
 

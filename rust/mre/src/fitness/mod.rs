@@ -16,7 +16,7 @@ pub use weights::Weights;
 
 use crate::error::Result;
 use crate::extent::Extent;
-use crate::kernel::{BoucWenRk4, Sinh, SinhCompressed};
+use crate::kernel::{BoucWenRk4, Sinh, SinhCompressed, sinh_compressed};
 use crate::law::Law;
 use crate::model::Model;
 use crate::parameter::{Bounds, Parameter};
@@ -62,6 +62,11 @@ impl Kernel {
             _ => Self::Terms,
         }
     }
+}
+
+/// True for so few samples that [`Problem::new`] makes them ready on the calling thread alone.
+pub fn is_small(recordings: &[Arc<Recording>]) -> bool {
+    sinh_compressed::is_one_leaf(recordings)
 }
 
 impl Problem {
@@ -125,6 +130,11 @@ impl Problem {
             Kernel::Sinh(kernel) => kernel.samples(),
             _ => self.recordings.iter().map(|r| r.scored().len()).sum(),
         }
+    }
+
+    /// True where one thread goes through the samples before another one would have started.
+    pub(crate) fn is_small(&self) -> bool {
+        is_small(&self.recordings)
     }
 
     /// The samples as a triangular factor, where the model and the box allow one.

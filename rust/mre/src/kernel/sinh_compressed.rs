@@ -219,6 +219,11 @@ pub(crate) struct Leaf<'a> {
     farthest: f64,
 }
 
+/// True where [`factor`] works on the calling thread alone.
+pub(crate) fn is_one_leaf(recordings: &[Arc<Recording>]) -> bool {
+    matches!(recordings, [one] if one.scored().len() <= LEAF)
+}
+
 /// Factors of the leaves, joined in pairs: a tree that only the samples decide, short so that
 /// roundings do not add up, in parallel.
 pub(crate) fn tree(leaves: &[Leaf<'_>], nodes: usize) -> Triangle {

@@ -68,6 +68,16 @@ pub fn check(problem: &Problem) -> Result<()> {
     if Kind::of(problem) == Kind::Other { Err(unknown(problem)) } else { Ok(()) }
 }
 
+/// True where [`exact`] works on the calling thread alone, and for so short a time that a thread pool would
+/// take longer to start.
+pub fn is_quick(problem: &Problem) -> bool {
+    match Kind::of(problem) {
+        Kind::Linear => problem.is_small(),
+        Kind::Sinh => problem.compressed().is_some(),
+        Kind::Other => false,
+    }
+}
+
 /// Why a problem has no proven optimum.
 fn unknown(problem: &Problem) -> Error {
     let wanted = "a proven optimum exists for kelvin_voigt and sinh only";
