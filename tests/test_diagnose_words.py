@@ -53,5 +53,6 @@ def test_places(found: dict[str, Any], pieces: list[str]) -> None:
 
 def test_intervals() -> None:
     assert words.interval(1.0, 2.5) == "1 to 2.5"
-    assert words.interval(None, 2.5) == "? to 2.5"
+    assert words.interval(None, 2.5) == "at most 2.5"
+    assert words.interval(0.0, None) == "0 or more"
     assert words.interval(None, None) == "not determined"

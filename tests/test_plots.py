@@ -158,3 +158,5 @@ def test_bad_input() -> None:
     for draw in (plots.plot_harmonics, plots.plot_loops):
         with pytest.raises(mre_core.InputError, match="has no force"):
             draw(motion())
+    with pytest.raises(mre_core.InputError, match=r"'\.bmp', wanted one of \.pdf, \.png, \.svg"):
+        plots.save(plots.plot_loops(r), "loops.bmp")

@@ -194,9 +194,9 @@ def next_test(best: Mapping[str, Any], separates: Sequence[str], limits: Mapping
 
 def interval(low: float | None, high: float | None) -> str:
     """Say an interval, of which the recordings may not determine an end."""
-    if low is None and high is None:
-        return "not determined"
-    return " to ".join("?" if end is None else f"{end:.4g}" for end in (low, high))
+    if low is None:
+        return "not determined" if high is None else f"at most {high:.4g}"
+    return f"{low:.4g} or more" if high is None else f"{low:.4g} to {high:.4g}"
 
 
 def number_of(count: int, thing: str) -> str:

@@ -126,8 +126,8 @@ CAMPAIGNS = {
     "batch: bounds of no parameter": batch("bounds of 'q'", "alpha", given=["--bounds", "q=0:1"]),
     "batch: bounds reversed": batch("bounds of beta", "lower", given=["--bounds", "beta=2:1"]),
     "batch: weights of nobody": batch("weights is 'q'", "'samples'", given=["--weights", "q"]),
-    "batch: no fish": batch("n_fish is 0", given=["--optimizer", "mafsa", "--fish", "0"]),
-    "batch: no iterations": batch("max_iterations is 0", given=["--optimizer", "pso", "--iterations", "0"]),
+    "batch: no fish": batch("mre-core: fish is 0", given=["--optimizer", "mafsa", "--fish", "0"]),
+    "batch: no iterations": batch("mre-core: iterations is 0", given=["--iterations", "0"]),
     "batch: a certain false alarm": Command(
         ["batch", "d", "--base", "sinh", "--out", "new", "--false-alarm", "2"],
         ["false_alarm is 2.0", "below 0.5"],

@@ -11,11 +11,11 @@ OPTIONS = {
     "unknown option": option("--modle", given=["--modle", "sinh"]),
     "unknown command": Command(["identfy", "a.csv"], ["identfy"]),
     "unknown optimizer": option("'ga'", "mafsa", "afsa", "pso", given=["--optimizer", "ga"]),
-    "no fish": option("n_fish is 0", "a whole number from", given=["--fish", "0"]),
+    "no fish": option("mre-core: fish is 0", "a whole number from", given=["--fish", "0"]),
     "no particles": option(
-        "n_particles is 0", "a whole number from", given=["--fish", "0", "--optimizer", "pso"]
+        "mre-core: fish is 0", "a whole number from", given=["--fish", "0", "--optimizer", "pso"]
     ),
-    "no iterations": option("max_iterations is 0", "from 1", given=["--iterations", "0"]),
+    "no iterations": option("mre-core: iterations is 0", "from 1", given=["--iterations", "0"]),
     "text for a count": option("--iterations", "'many'", given=["--iterations", "many"]),
     "negative budget": option("max_evaluations is -5", "at least 1", given=["--max-evaluations", "-5"]),
     "no budget": option("max_evaluations is 0", "at least 1", given=["--max-evaluations", "0"]),

@@ -34,6 +34,8 @@ from .study import study
 from .trial import trial
 
 _DEBUG = "MRE_CORE_TRACEBACK"
+_OPTIONS = {"n_fish": "fish", "n_particles": "fish", "max_iterations": "iterations"}
+"""Options that are called otherwise in Python, where what is wrong with them is found."""
 _FULL = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
 
 
@@ -117,7 +119,8 @@ def _run(given: list[str]) -> int:
     except click.ClickException as error:
         return _fail(error.format_message(), 2)
     except MreError as error:
-        return _fail(str(error), 2)
+        name, *rest = str(error).split(" ", 1)
+        return _fail(" ".join([_OPTIONS.get(name, name), *rest]), 2)
     except UnicodeEncodeError as error:
         if all(map(is_text, given)):
             return _unforeseen(error)

@@ -77,7 +77,7 @@ def counter(what: str, *, quiet: bool) -> Iterator[OnItems]:
 
     def on_items(done: int, failed: int, count: int) -> None:
         nonlocal said
-        note = f"{done} done, {failed} failed of {count}"
+        note = f"{done} of {count} done" + (f", {failed} failed" if failed else "")
         bar.update(task, completed=done + failed, total=count, note=note)
         if not quiet and not err.is_terminal and time.monotonic() - said >= EVERY:
             said = time.monotonic()

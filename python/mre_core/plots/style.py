@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any, Final, TypeVar
 
 import numpy as np
 
+from ..errors import InputError, listed, shown
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
@@ -31,6 +33,9 @@ SEQUENCE: Final[tuple[Look, ...]] = (
 
 SIGNED: Final = "cividis"
 """Colours of values of both signs: their lightness rises from the smallest to the largest."""
+
+_FORMATS: Final = {".png": None, ".svg": "Date", ".pdf": "CreationDate"}
+"""Endings of files, and where the format has a date, its name."""
 
 _STYLE: Final[Any] = {
     "font.size": 9.0,
@@ -90,9 +95,18 @@ def save(figure: "Figure", path: str | os.PathLike[str]) -> None:
         What to save.
     path : str or path
         Its ending chooses the format: ``.png``, ``.svg`` or ``.pdf``.
+
+    Raises
+    ------
+    MreError
+        Another ending, or none (a ValueError).
     """
     import matplotlib
 
-    dated = {".svg": "Date", ".pdf": "CreationDate"}.get(Path(path).suffix.lower())
+    ending = Path(path).suffix.lower()
+    if ending not in _FORMATS:
+        endings = listed(sorted(_FORMATS))
+        raise InputError(f"the ending of {shown(str(path))} is {shown(ending)}", wanted=f"one of {endings}")
+    dated = _FORMATS[ending]
     with matplotlib.rc_context(_STYLE | {"svg.hashsalt": "mre-core"}):
         figure.savefig(path, metadata={dated: None} if dated else None)

@@ -234,6 +234,7 @@ impl Problem {
     fn __repr__(&self) -> String {
         let from = match self.recordings.len() {
             0 => format!("{} samples streamed", self.inner.samples()),
+            1 => "1 recording".into(),
             count => format!("{count} recordings"),
         };
         format!("Problem({}, {from})", self.inner.model().name())
