@@ -180,7 +180,13 @@ def test_the_true_model_held_is_adequate() -> None:
     true = Model("sinh", (Level(None, {"c0": 0.4, "k0": 8.0, "alpha": 10.0, "beta": 0.3, "F0": 0.0}),))
     assert mre_core.diagnose(campaign(0.0), true, fixed=True, seed=1).verdict == "adequate"
     wrong = Model("sinh", (Level(None, {"c0": 0.4, "k0": 9.0, "alpha": 10.0, "beta": 0.3, "F0": 0.0}),))
-    assert mre_core.diagnose(campaign(0.0), wrong, fixed=True, seed=1).verdict != "adequate"
+    found = mre_core.diagnose(campaign(0.0), wrong, fixed=True, seed=1)
+    assert found.verdict != "adequate"
+    # Whatever is named: fitted parameters would leave the noise alone.
+    assert found.refitted is not None
+    assert found.refitted.rms_fitted == pytest.approx(found.fit.noise_rms, rel=0.05)
+    assert found.refitted.rms_as_given > 3 * found.refitted.rms_fitted
+    assert "parameters were kept as given" in str(found)
 
 
 def test_currents_have_parameters_of_their_own() -> None:

@@ -29,6 +29,7 @@ from .findings import (
 from .grouping import check_once, each_of, group_by_current, labels
 from .minimise import ON_INTERRUPT, draw_seed
 from .model import SIMULATED, Level, Model, simulate
+from .refitted import refitted
 from .suitable import check_recordings
 from .tested import largest_motion
 
@@ -83,7 +84,8 @@ def diagnose(
     false_alarm : float
         Chance that something is named although nothing is missing, in (0, 0.5).
     fixed : bool
-        Keep the parameters of a given model as they are, and diagnose exactly that model.
+        Keep the parameters of a given model as they are, and diagnose exactly that model: `refitted` says
+        what fitted ones would leave, because wrong parameters look like missing physics.
     without : sequence of str
         Ids of effects that are ruled out, and not to be named.
     blank : int
@@ -155,6 +157,10 @@ def diagnose(
         in_order = sorted(raw["effects"], key=lambda effect: int(effect["place"]))
         final, last = model(raw["final_levels"], [*raw["final_base_effects"], *in_order]), after
     names = labels([recording.name for recording in everything])
+    fitted, stopped = None, raw["interrupted"]
+    plain = isinstance(start, Model) and not start.effects and name != SIMULATED
+    if given and plain and not stopped and raw["verdict"] != "adequate":
+        fitted, stopped = refitted(base_model, everything, seed, threads, on_interrupt)
     return Diagnosis(
         base=name,
         verdict=raw["verdict"],
@@ -179,7 +185,8 @@ def diagnose(
         ),
         blank=blank_of(raw, float(false_alarm)),
         left_out={n: count for n, count in zip(names, raw["left_out"], strict=True) if count},
-        interrupted=raw["interrupted"],
+        refitted=fitted,
+        interrupted=stopped,
     )
 
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from . import words
 from ._core import __version__
 from .model import Model
+from .refitted import Refitted
 
 SCHEMA = "mre-core/diagnosis/1"
 
@@ -120,6 +121,9 @@ class Diagnosis:
     left_out: Mapping[str, int] = field(default_factory=dict)
     """Samples by recording that no fit, test or rms counts: near corners and ends of a motion without a
     recorded velocity, where the one that can be derived is wrong or noisy."""
+    refitted: Refitted | None = None
+    """Where the parameters of a base without effects were kept and there is a mismatch: what they leave, and
+    what parameters fitted to these recordings would."""
     interrupted: bool = False
     """True where Ctrl-C ended it early: what was not reached is empty, or nan."""
 
@@ -132,7 +136,10 @@ class Diagnosis:
         named = [e.id for e in self.effects]
         if self.verdict is None or not isfinite(self.fit.held_out_rms_after):
             return words.broken_off(self.verdict, self.base, named)
-        return words.verdict(self.verdict, self.base, named, asdict(self.fit))
+        told = words.verdict(self.verdict, self.base, named, asdict(self.fit))
+        fitted = self.refitted
+        more = [] if fitted is None else [words.refitted(fitted.rms_as_given, fitted.rms_fitted)]
+        return " ".join([told, *more])
 
     def to_dict(self) -> dict[str, Any]:
         """Content of ``diagnosis.json``."""
@@ -159,5 +166,6 @@ class Diagnosis:
             "recordings": list(self.recordings),
             "false_alarm": self.false_alarm,
             "seed": self.seed,
+            "refitted": None if self.refitted is None else asdict(self.refitted),
             "interrupted": self.interrupted,
         }

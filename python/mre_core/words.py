@@ -32,6 +32,14 @@ def verdict(kind: str, base: str, effects: Sequence[str], fit: Mapping[str, Any]
     }[kind].replace("with it", "with them" if len(effects) > 1 else "with it")
 
 
+def refitted(rms_as_given: float, rms_fitted: float) -> str:
+    """Say what fitted parameters would leave where they were kept; rms errors in N."""
+    return (
+        "Its parameters were kept as given: fitted to these recordings, they would leave"
+        f" {_force(rms_fitted)} in all instead of {_force(rms_as_given)}."
+    )
+
+
 def broken_off(kind: str | None, base: str, effects: Sequence[str]) -> str:
     """Say what stands of a diagnosis that ended before its fit was proved; `kind` is its verdict, if any."""
     model = "the given simulation" if base == "simulated" else f"the base model {base}"

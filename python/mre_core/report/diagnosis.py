@@ -23,6 +23,7 @@ _SHOWN = {
         "seed",
         "interrupted",
         "blank",
+        "refitted",
     ),
 }
 """Fields of ``diagnosis.json`` that have a place of their own on the page."""
