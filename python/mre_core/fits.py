@@ -58,6 +58,8 @@ def hybrid(
 ) -> SwarmResult:
     """Search the shapes by a small MAFSA with exact coefficients, then go downhill.
 
+    A swarm that went through all its iterations gives way to `exact` where that is better.
+
     Parameters
     ----------
     problem : Problem

@@ -96,7 +96,7 @@ pub(crate) fn refit(problem: &Problem, start: &[f64], cancel: &AtomicBool) -> Ve
     polish(problem, &projection, vec![Point { at, value }], 0.02, 1, StopReason::Iterations).values
 }
 
-/// MAFSA over the shapes with exact coefficients, then descent.
+/// MAFSA over the shapes with exact coefficients, then descent; with all its iterations never above [`exact`].
 ///
 /// # Errors
 /// A setting outside its range.
@@ -127,7 +127,15 @@ pub fn hybrid(
     let reason = run(&mut swarm, &mut evaluate, d, budget, monitor);
     seen.sort_by(|a, b| a.value.total_cmp(&b.value));
     let starts = separate(&seen, 0.1);
-    let fit = polish(problem, &projection, starts, 0.02, swarm.bulletin().evaluations, reason);
+    let mut fit = polish(problem, &projection, starts, 0.02, swarm.bulletin().evaluations, reason);
+    if reason == StopReason::Iterations {
+        // Where the hysteresis is as small as the noise, a small swarm can miss the best of several minima.
+        let scanned = exact(problem, cancel);
+        fit.evaluations += scanned.evaluations;
+        if scanned.cost < fit.cost {
+            (fit.values, fit.cost) = (scanned.values, scanned.cost);
+        }
+    }
     Ok(Fit { history: swarm.history().clone(), ..fit })
 }
 
