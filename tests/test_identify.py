@@ -246,6 +246,47 @@ def test_a_swarm_that_ran_out_of_time_is_not_compared() -> None:
     run = mre_core.identify(two_currents()[0], "bouc_wen", optimizer="mafsa", time_limit=0.05, seed=1).runs[0]
     assert run.reason == "time_limit"
     assert run.gap is None
+    assert run.uncertainty is not None
+    assert "stopped and not compared with the optimum" in run.uncertainty.words[-1]
+
+
+@pytest.mark.parametrize(
+    "ended", [{"time_limit": 0.001}, {"max_evaluations": 60}, {"callback": lambda *_: True}]
+)
+def test_a_run_that_ended_early_shows_its_gap_where_that_is_quick(ended: dict[str, Any]) -> None:
+    recording = two_currents()[0]
+    run = mre_core.identify(recording, "sinh", optimizer="mafsa", seed=1, **ended).runs[0]
+    assert run.reason in ("time_limit", "max_evaluations", "callback")
+    best = mre_core.exact(Problem(recording, "sinh")).fun
+    assert run.gap == pytest.approx(run.fitness / best - 1)
+    assert "above the best known optimum" in str(run)
+
+
+def test_a_hybrid_of_one_evaluation_is_compared_and_a_whole_one_stands_at_the_optimum() -> None:
+    recording = two_currents()[0]
+    short, whole = (
+        mre_core.identify(recording, "bouc_wen", seed=1, max_evaluations=most).runs[0] for most in (1, None)
+    )
+    assert short.gap is not None
+    assert whole.gap == 0.0
+    assert "at the best known optimum" in str(whole)
+
+
+def test_profiles_of_a_swarm_that_stopped_short_are_about_the_optimum() -> None:
+    recording = two_currents()[0]
+    swarm = mre_core.identify(recording, "sinh", optimizer="pso", seed=1, max_iterations=2)
+    best = mre_core.identify(recording, "sinh", seed=1)
+    assert swarm.result.gap is not None
+    assert swarm.result.gap > 0.1
+    for found, right in zip(swarm.profile()[0], best.profile()[0], strict=True):
+        assert found.interval == right.interval
+
+
+def test_a_gap_to_an_error_of_rounding_is_told_as_an_error() -> None:
+    clean = record(made_of("kelvin_voigt", KELVIN_VOIGT), motion(), noise=0.0, seed=1)
+    run = mre_core.identify(clean, "kelvin_voigt", optimizer="pso", seed=1, max_iterations=5).runs[0]
+    assert "far above the best known optimum (rms error" in str(run)
+    assert "%" not in run.standing
 
 
 def test_a_model_is_saved_and_read(tmp_path: Path) -> None:

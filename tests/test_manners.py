@@ -101,6 +101,7 @@ def job(seed):
         # One candidate stays on this thread, many share a pool.
         costs += [problem.fitness(middle), *problem.fitness(np.tile(middle, (1000, 1)))[-2:]]
         costs.append(mre_core.mafsa(problem, seed=seed, max_iterations=2, n_fish=10).fun)
+        costs.append(mre_core.exact(problem).fun)
     # Whole generations are drawn on this thread.
     bowl = mre_core.mafsa(lambda p: (p**2).sum(axis=1), [(-1, 1)] * 5, seed=seed, max_iterations=2)
     return [*costs, bowl.fun]

@@ -106,10 +106,15 @@ def test_what_table_2_determines_in_words() -> None:
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_words_at_small_strokes_and_none_at_large_ones(seed: int) -> None:
     for condition in CAMPAIGN:
-        found = mre_core.identify(record(condition, seed), "sinh", optimizer="exact").result.uncertainty
+        result = mre_core.identify(record(condition, seed), "sinh", optimizer="exact").result
+        found = result.uncertainty
         assert found is not None
         if condition.amplitude == 2:
             assert "k0 + alpha beta" in found.words[0]
+            # A value on a bound says nothing of what a larger stroke would show.
+            bad = {p.name for p in found.parameters if not p.determined}
+            on_a_bound = any(p.on_bound for p in result.parameters if p.name in bad)
+            assert ("these recordings do not tell which larger stroke" in found.words[0]) == on_a_bound
             assert not by_name(found)["beta"].determined
             assert by_name(found)["k0 + alpha beta"].determined
         if condition.amplitude == 8 and condition.current > 0:

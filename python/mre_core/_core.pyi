@@ -18,6 +18,7 @@ __all__ = [
     "classical",
     "diagnose_recordings",
     "effect_parameters",
+    "exact_is_quick",
     "excitation",
     "fit_bootstrap",
     "fit_exact",
@@ -150,6 +151,7 @@ class Swarm:
     def run_problem(self, problem: Problem, **options: Any) -> str: ...
     def run_function(self, function: Callable[[NDArray[np.float64]], ArrayLike], **options: Any) -> str: ...
 
+def exact_is_quick(problem: Problem) -> bool: ...
 def fit_exact(
     problem: Problem, *, threads: int | None = None, on_interrupt: str = "raise"
 ) -> tuple[NDArray[np.float64], float, int, str, dict[str, NDArray[Any]]]: ...

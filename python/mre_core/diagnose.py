@@ -12,7 +12,7 @@ import numpy as np
 from . import _core
 from ._core import Recording
 from .checks import check_listener, choice, flag, whole, workers
-from .diagnosis import Diagnosis, History
+from .diagnosis import Diagnosis, History, Refitted
 from .errors import InputError, shown
 from .findings import (
     blank_of,
@@ -29,7 +29,6 @@ from .findings import (
 from .grouping import check_once, each_of, group_by_current, labels
 from .minimise import ON_INTERRUPT, draw_seed
 from .model import SIMULATED, Level, Model, simulate
-from .refitted import refitted
 from .suitable import check_recordings
 from .tested import largest_motion
 
@@ -157,10 +156,6 @@ def diagnose(
         in_order = sorted(raw["effects"], key=lambda effect: int(effect["place"]))
         final, last = model(raw["final_levels"], [*raw["final_base_effects"], *in_order]), after
     names = labels([recording.name for recording in everything])
-    fitted, stopped = None, raw["interrupted"]
-    plain = isinstance(start, Model) and not start.effects and name != SIMULATED
-    if given and plain and not stopped and raw["verdict"] != "adequate":
-        fitted, stopped = refitted(base_model, everything, seed, threads, on_interrupt)
     return Diagnosis(
         base=name,
         verdict=raw["verdict"],
@@ -185,8 +180,8 @@ def diagnose(
         ),
         blank=blank_of(raw, float(false_alarm)),
         left_out={n: count for n, count in zip(names, raw["left_out"], strict=True) if count},
-        refitted=fitted,
-        interrupted=stopped,
+        refitted=None if raw["refitted"] is None else Refitted(**raw["refitted"]),
+        interrupted=raw["interrupted"],
     )
 
 

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from . import words
 from ._core import __version__
 from .model import Model
-from .refitted import Refitted
 
 SCHEMA = "mre-core/diagnosis/1"
 
@@ -60,6 +59,16 @@ class Comparison:
     held_out_rms_before: float
     held_out_rms_after: float
     noise_rms: float
+    unit: str = "N"
+
+
+@dataclass(frozen=True)
+class Refitted:
+    """Rms errors of a base model whose parameters were kept, over all samples that count."""
+
+    rms_as_given: float
+    rms_fitted: float
+    """With parameters fitted to these recordings."""
     unit: str = "N"
 
 
@@ -122,8 +131,8 @@ class Diagnosis:
     """Samples by recording that no fit, test or rms counts: near corners and ends of a motion without a
     recorded velocity, where the one that can be derived is wrong or noisy."""
     refitted: Refitted | None = None
-    """Where the parameters of a base without effects were kept and there is a mismatch: what they leave, and
-    what parameters fitted to these recordings would."""
+    """Where the parameters of a base without effects were kept, something is missing, and fitted ones leave
+    less."""
     interrupted: bool = False
     """True where Ctrl-C ended it early: what was not reached is empty, or nan."""
 

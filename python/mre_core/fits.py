@@ -1,6 +1,7 @@
 """Fits that solve the linear coefficients exactly (variable projection)."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any, Literal, Unpack
 
 import numpy as np
@@ -44,7 +45,7 @@ def exact(
     """
     choice(on_interrupt, "on_interrupt", ON_INTERRUPT)
     found = _core.fit_exact(problem, threads=workers(threads), on_interrupt=on_interrupt)
-    return _result("exact", problem, found, 0, {})
+    return _at_best(_result("exact", problem, found, 0, {}))
 
 
 def hybrid(
@@ -69,7 +70,7 @@ def hybrid(
     n_fish, max_iterations, try_number : int
         Size of the swarm, which has few variables to search; other settings as in `mafsa`.
     **run
-        See `RunOptions`; budgets hold for the swarm, not for the descent after it.
+        See `RunOptions`; budgets hold for the swarm, not for the descent and `exact` after it.
 
     Returns
     -------
@@ -86,7 +87,14 @@ def hybrid(
     }
     start = options.pop("x0", None)
     found = _core.fit_hybrid(problem, settings, seed, start=start, **options)
-    return _result("hybrid", problem, found, seed, settings)
+    run_through = _result("hybrid", problem, found, seed, settings)
+    # Stopped before, it was not compared with `exact`.
+    return _at_best(run_through) if run_through.reason is StopReason.MAX_ITERATIONS else run_through
+
+
+def _at_best(found: SwarmResult) -> SwarmResult:
+    """Mark a result as the best known one, unless it was interrupted."""
+    return found if found.reason is StopReason.INTERRUPTED else replace(found, optimum=found.fitness)
 
 
 def _result(

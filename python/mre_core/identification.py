@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 
 from ._core import Problem
+from .fits import exact
 from .measure import Fit
 from .model import Model
 from .results import StopReason, SwarmResult
@@ -23,9 +24,16 @@ class Identification:
     """What each run solved."""
 
     def profile(self, *, level: float = 0.95, threads: int | None = None) -> list[tuple[Profile, ...]]:
-        """Profile-likelihood intervals of every run: see `mre_core.profile`."""
-        pairs = zip(self.problems, self.runs, strict=True)
-        return [profile(problem, run.x, level=level, threads=threads) for problem, run in pairs]
+        """Profile-likelihood intervals of every run: see `mre_core.profile`.
+
+        They are about the best known optimum, also of a run that stopped short of it.
+        """
+        found = []
+        for problem, run in zip(self.problems, self.runs, strict=True):
+            at_best = run.optimum is not None and run.fitness <= run.optimum
+            x = run.x if at_best else min(run, exact(problem, threads=threads), key=lambda one: one.fitness).x
+            found.append(profile(problem, x, level=level, threads=threads))
+        return found
 
     def bootstrap(
         self,

@@ -6,7 +6,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from ._core import Problem, Recording, check_certifiable, models, parameters
+from ._core import Problem, Recording, check_certifiable, exact_is_quick, models, parameters
 from .certificate import certificate
 from .checks import check_listener, choice, flag
 from .errors import InputError, MreError
@@ -133,16 +133,18 @@ def _shares(weights: Any, recordings: list[Recording], groups: Sequence[list[Rec
 def _optimise(
     optimizer: str, problem: Problem, seed: int, start: list[float] | None, options: Mapping[str, Any]
 ) -> SwarmResult:
-    """Run one optimiser; a swarm that was not told to end is compared with the exact optimum."""
+    """Run one optimiser, and compare what it found with the exact optimum."""
     shared = {key: options[key] for key in ("threads", "on_interrupt") if key in options}
     if optimizer == "exact":
         if surplus := sorted(key for key in set(options) - {*shared, "callback"} if options[key] is not None):
             raise InputError(f"{surplus[0]} is given", wanted="no such setting for the optimizer 'exact'")
         return exact(problem, **shared)
-    if optimizer == "hybrid":
-        return hybrid(problem, seed=seed, **({"x0": start} | dict(options)))
-    run = SWARMS[optimizer](problem, seed=seed, **({"x0": start} | dict(options)))
-    if run.reason in (StopReason.INTERRUPTED, StopReason.CALLBACK, StopReason.TIME_LIMIT):
+    search = hybrid if optimizer == "hybrid" else SWARMS[optimizer]
+    run = search(problem, seed=seed, **({"x0": start} | dict(options)))
+    if run.optimum is not None or run.reason is StopReason.INTERRUPTED:
+        return run
+    # Who has ended it does not want to wait.
+    if run.reason in (StopReason.CALLBACK, StopReason.TIME_LIMIT) and not exact_is_quick(problem):
         return run
     best = exact(problem, **shared)
     if best.reason is StopReason.INTERRUPTED:  # the swarm has ended, what belongs to it has not
@@ -172,12 +174,16 @@ def _with_uncertainty(run: SwarmResult, problem: Problem) -> SwarmResult:
     except MreError:
         return run
     samples = sum(stop - start for start, stop in (r.scored for r in problem.recordings))
-    if run.gap is not None and run.gap * samples > 1:
-        words = (
-            f"{run.algorithm} stopped short of the optimum by more than noise: the intervals are too narrow"
+    words = found.words
+    if run.optimum is None:
+        words += (
+            f"{run.algorithm} was stopped and not compared with the optimum: intervals hold only there",
         )
-        found = replace(found, words=(*found.words, words))
-    return replace(run, uncertainty=found)
+    elif (run.fitness - run.optimum) * samples > run.optimum:
+        words += (
+            f"{run.algorithm} stopped short of the optimum by more than noise: the intervals are too narrow",
+        )
+    return replace(run, uncertainty=replace(found, words=words))
 
 
 def _intervals(found: Uncertainty | None, current: float | None) -> dict[str, tuple[float, float]]:

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
+from math import sqrt
 from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +16,10 @@ from .words import number_of
 
 if TYPE_CHECKING:
     from .uncertainty import Uncertainty
+
+
+_FAR = 100.0
+"""Times the fitness above which a gap in per cent says nothing."""
 
 
 class StopReason(StrEnum):
@@ -87,6 +92,18 @@ class SwarmResult:
         return self.fitness / self.optimum - 1
 
     @property
+    def standing(self) -> str:
+        """How far the fitness is above the best known one, in words; empty where that is not known."""
+        if self.optimum is None:
+            return ""
+        if self.fitness <= self.optimum:
+            return "at the best known optimum"
+        if self.gap is not None and self.gap < _FAR:
+            return f"{100 * self.gap:.2g} % above the best known optimum"
+        rms, least = sqrt(self.fitness), sqrt(max(self.optimum, 0.0))
+        return f"far above the best known optimum (rms error {rms:.3g} N instead of {least:.2g} N)"
+
+    @property
     def x(self) -> NDArray[np.float64]:
         """Best parameters, shape (d,)."""
         return np.array([parameter.value for parameter in self.parameters])
@@ -132,8 +149,8 @@ class SwarmResult:
                 rows.append(f"  {d.name:<20} {d.value:>6.5g} {d.unit:<7} {d.interval}".rstrip())
             for sentence in found.words:
                 rows += wrap(sentence, 98, initial_indent="  ", subsequent_indent="    ")
-        if self.gap is not None:
-            rows.append(f"  {100 * self.gap:.2g} % above the best known optimum")
+        if self.standing:
+            rows.append(f"  {self.standing}")
         if self.certificate is not None:
             rows.append(f"  {self.certificate}")
         rows.append(

@@ -114,7 +114,7 @@ def print_identification(
         for d in run.uncertainty.derived if run.uncertainty else ():
             ends = [column.get(d.name, "") for column in intervals.values()]
             table.add_row(d.name, f"{d.value:.6g}", d.unit, *ends)
-        gap = "" if run.gap is None else f", {100 * run.gap:.2g} % above the best known optimum"
+        gap = f", {run.standing}" if run.standing else ""
         table.caption = (
             f"fitness {run.fitness:.6g} {run.unit} (rms {run.rms:.4g} N){gap},"
             f" {number_of(run.n_evaluations, 'evaluation')} ({run.n_failures} failed),"

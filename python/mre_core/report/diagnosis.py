@@ -23,7 +23,6 @@ _SHOWN = {
         "seed",
         "interrupted",
         "blank",
-        "refitted",
     ),
 }
 """Fields of ``diagnosis.json`` that have a place of their own on the page."""

@@ -11,7 +11,7 @@ use crate::bounds::read_start;
 use crate::error::to_python;
 use crate::outcome::{history_to_python, name_of};
 use crate::problem::Problem;
-use crate::run::{Ended, Link, here, in_pool, raises};
+use crate::run::{Ended, Link, by_signal, here, in_pool, raises};
 use crate::scalars::Whole;
 use crate::settings::{RunOptions, fish, run_options};
 
@@ -35,11 +35,17 @@ pub(crate) fn fit_exact<'py>(
     let raise = raises(on_interrupt)?;
     let job = |link: &Link| fit::exact(&problem.inner, link.cancel());
     let (fit, ended) = if certified::is_quick(&problem.inner) {
-        (here(py, threads, job)?, Ended::ByItself)
+        (here(py, threads, job)?, by_signal(py, raise)?)
     } else {
         in_pool(py, threads, None, raise, job)?
     };
     outcome(py, fit, ended)
+}
+
+/// True where the exact optimum takes less time than a thread to start.
+#[pyfunction]
+pub(crate) fn exact_is_quick(problem: &Problem) -> bool {
+    certified::is_quick(&problem.inner)
 }
 
 /// MAFSA over the shapes with exact coefficients, then descent: `(x, fitness, evaluations, reason, history)`.

@@ -33,7 +33,7 @@ mod _core {
     #[pymodule_export]
     use crate::error::MreError;
     #[pymodule_export]
-    use crate::fit::{certify, check_certifiable, fit_exact, fit_hybrid};
+    use crate::fit::{certify, check_certifiable, exact_is_quick, fit_exact, fit_hybrid};
     #[pymodule_export]
     use crate::problem::Problem;
     #[pymodule_export]

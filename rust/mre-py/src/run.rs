@@ -43,7 +43,8 @@ impl Monitor for &Link {
     fn go_on(&mut self, progress: Progress) -> bool {
         if let Ok(mut news) = self.news.lock() {
             // Only the latest matters.
-            *news = vec![News::Progress(progress)];
+            news.clear();
+            news.push(News::Progress(progress));
         }
         !self.broken_off()
     }
@@ -99,6 +100,15 @@ pub(crate) fn here<R: Send>(
 ) -> PyResult<R> {
     count(threads)?;
     Ok(py.detach(|| job(&Link::default())))
+}
+
+/// Who has ended a job by now: a signal is raised, unless it is Ctrl-C and `raise` is false.
+pub(crate) fn by_signal(py: Python<'_>, raise: bool) -> PyResult<Ended> {
+    match py.check_signals() {
+        Ok(()) => Ok(Ended::ByItself),
+        Err(error) if !raise && error.is_instance_of::<PyKeyboardInterrupt>(py) => Ok(Ended::Interrupted),
+        Err(error) => Err(error),
+    }
 }
 
 /// The number of threads for rayon.

@@ -4,7 +4,10 @@
 
 mod common;
 
+use std::sync::atomic::AtomicBool;
+
 use common::{Trial, fitness, problem, with_threads};
+use mre::fit::{certified, exact};
 use mre::fitness::Weights;
 use mre::swarm::{Budget, Crowd, FishSettings, FishSwarm, Neighbourhood, Schedule, Search, run};
 
@@ -19,8 +22,10 @@ fn small_work_starts_no_pool() {
         ("bouc_wen", vec![]),
         ("kelvin_voigt", vec![]),
     ] {
-        let problem =
-            with_threads(1, || problem(model, std::slice::from_ref(&recording), &bounds, &Weights::Samples));
+        let problem = problem(model, std::slice::from_ref(&recording), &bounds, &Weights::Samples);
+        if certified::is_quick(&problem) {
+            exact(&problem, &AtomicBool::new(false));
+        }
         let most = (1..10_000).take_while(|count| problem.on_one_thread(*count)).last().unwrap();
         fitness(&problem, &problem.bounds().upper().repeat(most));
     }

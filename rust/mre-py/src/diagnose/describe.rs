@@ -3,19 +3,23 @@
 use mre::assembly::{Assembly, Base};
 use mre::device::Level;
 use mre::diagnose::{
-    self, Blank, Diagnosis, Estimate, Estimates, NextTest, On, Place, Proof, Prospect, Unknown,
+    self, Blank, Diagnosis, Estimate, Estimates, NextTest, On, Place, Proof, Prospect, Refitted, Unknown,
 };
 use mre::effect::Effect;
 use serde_json::{Value, json};
 
-/// `own` effects belong to the base; `blanks` is what came of so many blank campaigns as were `wanted`.
-pub(super) fn describe(
-    found: &Diagnosis,
-    base: &Base,
-    own: usize,
-    blanks: Option<&Blank>,
-    wanted: usize,
-) -> Value {
+/// What came after a diagnosis.
+pub(super) struct After {
+    /// Of blank campaigns, where some were wanted.
+    pub(super) blanks: Option<Blank>,
+    /// Of the parameters that were kept.
+    pub(super) refitted: Option<Refitted>,
+    /// True where it was broken off before the end.
+    pub(super) broken_off: bool,
+}
+
+/// `own` effects belong to the base.
+pub(super) fn describe(found: &Diagnosis, base: &Base, own: usize, after: &After) -> Value {
     let judgement = found.judgement.as_ref();
     let evidence = judgement.map(|j| j.evidence);
     let proofs = found.proofs.as_ref();
@@ -46,8 +50,9 @@ pub(super) fn describe(
         "next_test": found.next_test.as_ref().map(next_test),
         "left_out": left_out(begun),
         "sizes": sizes(found),
-        "blank": blanks.filter(|b| b.count > 0).map(blank),
-        "interrupted": found.broken_off || blanks.is_some_and(|b| b.count < wanted),
+        "blank": after.blanks.as_ref().filter(|b| b.count > 0).map(blank),
+        "refitted": after.refitted.map(|r| json!({"rms_as_given": r.as_given, "rms_fitted": r.fitted})),
+        "interrupted": after.broken_off,
     })
 }
 

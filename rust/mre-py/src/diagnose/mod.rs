@@ -2,6 +2,7 @@
 
 mod describe;
 
+use describe::After;
 use mre::assembly::{Base, Campaign, Kept};
 use mre::diagnose::{self, KINDS, Limits, Monitor, Settings, Stage};
 use mre::error::{Error, Result};
@@ -87,8 +88,10 @@ pub(crate) fn diagnose_recordings<'py>(
                 0 => None,
                 count => Some(diagnose::blank(&found, &base, &own, &settings, count, link)?),
             };
+            let refitted = diagnose::refitted(&found, &groups, link);
             link.begins(Stage::Done);
-            let text = describe::describe(&found, &base, own.len(), blanks.as_ref(), blank).to_string();
+            let after = After { blanks, refitted, broken_off: link.broken_off() };
+            let text = describe::describe(&found, &base, own.len(), &after).to_string();
             Ok(Some((text, found.base_force, found.final_force)))
         },
     )?;

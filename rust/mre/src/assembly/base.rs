@@ -75,6 +75,16 @@ impl Base {
         }
     }
 
+    /// The same with parameters that are fitted, in groups of recordings that share them; `None` for a base that is
+    /// fitted or given, or has effects, and where no problem can be made of the recordings.
+    pub(crate) fn unkept(&self, recordings: &[Arc<Recording>], groups: &[Vec<usize>]) -> Option<Self> {
+        let Self::Held(kept) = self else { return None };
+        if kept.has_effects() {
+            return None;
+        }
+        Self::fitted(recordings, kept.model().name(), groups).ok()
+    }
+
     /// Places of the recordings that share parameters, group by group.
     pub(crate) fn members(&self) -> Vec<Vec<usize>> {
         self.groups().iter().map(|g| g.members.clone()).collect()

@@ -33,6 +33,11 @@ impl Kept {
         self.device.model()
     }
 
+    /// True where effects are kept with the device.
+    pub(super) fn has_effects(&self) -> bool {
+        self.effects.is_some()
+    }
+
     /// The same once more.
     pub(crate) fn again(&self) -> Result<Self> {
         Ok(Self { device: self.device.again()?, effects: self.effects.clone() })

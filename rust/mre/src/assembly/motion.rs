@@ -30,7 +30,7 @@ pub(super) fn of_one_motion(recording: &Recording) -> (Arc<Recording>, Doubts) {
         let derived = velocity::from_displacement(time, x);
         if derived.corners.is_empty() {
             let velocity::Calmed { displacement, velocity, noisy } = velocity::calmed(time, x, &derived);
-            (displacement, velocity, Doubts { left_out: ends(time, derived.window), noisy })
+            (displacement, velocity, Doubts { left_out: ends(time.len(), derived.half), noisy })
         } else {
             // Across a corner a longer window takes off motion.
             let velocity::Derived { displacement, velocity, corners, .. } = derived;
@@ -43,10 +43,8 @@ pub(super) fn of_one_motion(recording: &Recording) -> (Arc<Recording>, Doubts) {
     (Arc::new(recording.seen_with(displacement, velocity, None)), doubts)
 }
 
-/// Samples at the ends of a recording whose velocity is derived over this window in s.
-fn ends(time: &[f64], window: f64) -> Vec<Range<usize>> {
-    let n = time.len();
-    let step = (time[n - 1] - time[0]) / (n - 1) as f64;
-    let count = ((0.5 * window / step).round() as usize).div_ceil(END);
-    vec![0..count, n - count..n]
+/// Samples at the ends of so many whose velocity is derived over this half window.
+fn ends(samples: usize, half: usize) -> Vec<Range<usize>> {
+    let count = half.div_ceil(END);
+    vec![0..count, samples - count..samples]
 }

@@ -34,6 +34,8 @@ pub enum Stage {
     Alternatives,
     /// The excitation that resolves most of what is in doubt.
     NextTest,
+    /// Fit of the parameters that were kept.
+    Refit,
     /// Simulated campaigns from which nothing is missing: how many are done, and how many there are.
     Blank(usize, usize),
     /// Nothing is left to do.
@@ -58,6 +60,7 @@ impl fmt::Display for Stage {
             Self::Proof => "proving on held-out data",
             Self::Alternatives => "looking for alternatives",
             Self::NextTest => "looking for the next test",
+            Self::Refit => "fitting the parameters that were kept",
             Self::Done => "done",
             Self::Blank(done, count) => return write!(f, "blank campaigns: {done} of {count}"),
         };

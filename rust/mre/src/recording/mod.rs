@@ -71,7 +71,8 @@ impl Recording {
             let derived = velocity::from_displacement(&series.time, &series.displacement);
             check::usable("velocity from the displacement", &derived.velocity)
                 .map_err(|error| error.in_recording(&name))?;
-            (derived.velocity, Some(derived.window))
+            let window = derived.window(&series.time);
+            (derived.velocity, Some(window))
         };
         let scored = 0..velocity.len();
         Ok(Self { series, velocity, velocity_window, scored })

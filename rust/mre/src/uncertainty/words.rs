@@ -31,9 +31,15 @@ pub(super) fn words(
         let count = if known.len() > 1 { "are" } else { "is" };
         format!("only {} {count} determined; {} {verb} not", known.join(" and "), names.join(", "))
     };
-    let remedy = cure(local, &bad, cycle).map_or(String::new(), |amplitude| {
-        format!(": {} {:.2} mm test would fix {}", article(amplitude), Short(amplitude), them(&names))
-    });
+    let remedy = match cure(local, &bad, cycle) {
+        Cure::At(amplitude) => {
+            format!(": {} {:.2} mm test would fix {}", article(amplitude), Short(amplitude), them(&names))
+        }
+        Cure::Unknown => {
+            format!(": these recordings do not tell which larger stroke would fix {}", them(&names))
+        }
+        Cure::None => String::new(),
+    };
     let first = format!("at {:.2} mm {what}{remedy}", Short(cycle.amplitude));
     let mut out = vec![first];
     out.extend(weakest(local, parameters));
@@ -66,13 +72,24 @@ fn determined_combinations(local: &Local<'_>, parameters: &[Estimate], derived: 
         .collect()
 }
 
+/// What would determine what is not.
+enum Cure {
+    /// The same test at this amplitude, mm.
+    At(f64),
+    /// None of the amplitudes that were tried.
+    None,
+    /// Values on a bound say nothing about what a larger test would see.
+    Unknown,
+}
+
 /// The smallest larger amplitude at which the same test would determine what this one does not.
-fn cure(local: &Local<'_>, bad: &[usize], cycle: Cycle) -> Option<f64> {
-    // On a bound the values say nothing about what a larger test would see.
+fn cure(local: &Local<'_>, bad: &[usize], cycle: Cycle) -> Cure {
     let sides = local.problem.bounds().on_bound(local.values);
-    let places: Option<Vec<usize>> =
-        bad.iter().map(|j| local.free.iter().position(|i| i == j).filter(|_| sides[*j] == 0)).collect();
-    let places = places?;
+    if bad.iter().any(|j| sides[*j] != 0) {
+        return Cure::Unknown;
+    }
+    let places: Option<Vec<usize>> = bad.iter().map(|j| local.free.iter().position(|i| i == j)).collect();
+    let Some(places) = places else { return Cure::None };
     let good = |errors: &[(f64, f64)]| {
         places.iter().all(|place| {
             let (error, little) = errors[*place];
@@ -82,7 +99,7 @@ fn cure(local: &Local<'_>, bad: &[usize], cycle: Cycle) -> Option<f64> {
     FACTORS
         .into_iter()
         .find(|factor| local.at_amplitude(*factor).is_some_and(|errors| good(&errors)))
-        .map(|factor| factor * cycle.amplitude)
+        .map_or(Cure::None, |factor| Cure::At(factor * cycle.amplitude))
 }
 
 /// The change of the parameters that the recordings see least of, so large that the one that changes

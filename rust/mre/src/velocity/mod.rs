@@ -45,11 +45,23 @@ pub struct Derived {
     pub velocity: Vec<f64>,
     /// The displacement that this is the slope of, mm.
     pub displacement: Vec<f64>,
-    /// Length of the window in s.
-    pub window: f64,
+    /// Samples that its window has on either side.
+    pub half: usize,
     /// Samples that have a corner of the motion in their window, on an even grid: their velocity is not to be
     /// trusted.
     pub corners: Vec<Range<usize>>,
+}
+
+impl Derived {
+    /// Length of the window in s.
+    pub fn window(&self, time: &[f64]) -> f64 {
+        2.0 * self.half as f64 * step(time)
+    }
+}
+
+/// Mean step of times in s.
+fn step(time: &[f64]) -> f64 {
+    (time[time.len() - 1] - time[0]) / (time.len() - 1) as f64
 }
 
 /// Velocity in mm/s at every sample of a displacement in mm at strictly increasing times in s.
@@ -59,9 +71,7 @@ pub struct Derived {
 pub fn from_displacement(time: &[f64], displacement: &[f64]) -> Derived {
     let window = Window::best(time, displacement, usize::MAX, &[TERMS]);
     let (velocity, smooth) = window.over(time, displacement);
-    let step = (time[time.len() - 1] - time[0]) / (time.len() - 1) as f64;
-    let length = 2.0 * window.half as f64 * step;
-    let mut derived = Derived { velocity, displacement: smooth, window: length, corners: Vec::new() };
+    let mut derived = Derived { velocity, displacement: smooth, half: window.half, corners: Vec::new() };
     if even_step(time).is_ok() {
         between_corners(&mut derived, time, displacement, window);
     }

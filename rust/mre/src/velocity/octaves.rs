@@ -5,10 +5,10 @@
 //! of the error: Stein 1981, <https://doi.org/10.1214/aos/1176345632>). And where a motion is slower than elsewhere,
 //! octave by octave what the next window takes off is compared with what noise would leave there.
 
-use super::Derived;
 use super::local::TERMS;
 use super::low_pass::LowPass;
 use super::window::Window;
+use super::{Derived, step};
 
 /// Widest half window in samples.
 const WIDEST: usize = 1024;
@@ -35,12 +35,11 @@ pub struct Calmed {
 
 /// A derived motion on an even grid less its noise, from the measured displacement in mm.
 pub fn calmed(time: &[f64], measured: &[f64], derived: &Derived) -> Calmed {
-    let step = (time[time.len() - 1] - time[0]) / (time.len() - 1) as f64;
-    let half = (0.5 * derived.window / step).round() as usize;
+    let half = derived.half;
     let share = Window { half, terms: TERMS }.leverage();
     let motion = [derived.displacement.clone(), derived.velocity.clone()];
     let narrow = Smooth { motion, half, share };
-    let mut noisy = Noisy { time, measured, step, variance: 0.0 };
+    let mut noisy = Noisy { time, measured, step: step(time), variance: 0.0 };
     noisy.variance = noisy.left_by(&narrow) / (1.0 - share).max(f64::MIN_POSITIVE);
     let Some(wide) = noisy.smooth(2 * half) else {
         let [displacement, velocity] = narrow.motion;
