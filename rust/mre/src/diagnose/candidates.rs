@@ -5,7 +5,6 @@ use rayon::prelude::*;
 
 use super::begin::starts;
 use super::coherent::without_the_coherent;
-use super::drift;
 use super::gaps::LeftOut;
 use super::held::Held;
 use super::least_squares::{Data, Fitted, refine, refine_at_most};
@@ -15,6 +14,7 @@ use super::plain_mismatch;
 use super::point::forces;
 use super::screen::Score;
 use super::settings::Settings;
+use super::slow::temper;
 use super::starts::without_initial_state;
 use crate::assembly::{Assembly, Campaign};
 use crate::effect::{CATALOGUE, Effect};
@@ -114,10 +114,7 @@ pub(super) fn scores(assembly: &Assembly, data: Data, unit: &[f64], settings: &S
         .enumerate()
         .filter_map(|(i, e)| null.score(e, settings.seed ^ i as u64))
         .collect();
-    let slow = drift::chance(&null.residuals());
-    for score in found.iter_mut().filter(|s| s.effect.slow() && s.p_value < slow) {
-        score.p_value = slow;
-    }
+    temper(&mut found, &null, assembly, data, unit, settings.false_alarm);
     found
 }
 

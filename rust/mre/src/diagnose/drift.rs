@@ -27,7 +27,7 @@ const CAUTION: f64 = 1.25;
 
 /// The residuals without their drift and their means, if there is one.
 pub(super) fn without_drift(residuals: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let waves = waves(residuals);
+    let waves = waves(residuals, residuals);
     if chance_of(residuals, &waves) > CHANCE {
         return residuals.to_vec();
     }
@@ -46,22 +46,27 @@ pub(super) fn without_drift(residuals: &[Vec<f64>]) -> Vec<Vec<f64>> {
 
 /// Chance that noise alone looks as much like drift as these residuals.
 pub(super) fn chance(residuals: &[Vec<f64>]) -> f64 {
-    chance_of(residuals, &waves(residuals))
+    chance_beside(residuals, residuals)
+}
+
+/// The same, where the noise beside the slow part of these residuals is that of others.
+pub(super) fn chance_beside(residuals: &[Vec<f64>], noise: &[Vec<f64>]) -> f64 {
+    chance_of(residuals, &waves(residuals, noise))
 }
 
 fn chance_of(residuals: &[Vec<f64>], waves: &[Vec<f64>]) -> f64 {
     chi_square_tail(excess(residuals, waves) / CAUTION, SLOW * waves.len())
 }
 
-/// Amplitudes of the slow half-cosines of each residual, then those of what a line leaves of it, up to half its
-/// sampling rate: a drift is a line above all, which reaches into the faster ones.
-fn waves(residuals: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let own = |e: &Vec<f64>| {
+/// Amplitudes of the slow half-cosines of each residual, then those of what a line leaves of its noise, up to half
+/// its sampling rate: a drift is a line above all, which reaches into the faster ones.
+fn waves(residuals: &[Vec<f64>], noise: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let own = |(e, noise): (&Vec<f64>, &Vec<f64>)| {
         let mut found = amplitudes(e, SLOW + 1);
-        found.extend(amplitudes(&without_line(e), BESIDE.end.min(e.len() / 2)).iter().skip(SLOW));
+        found.extend(amplitudes(&without_line(noise), BESIDE.end.min(e.len() / 2)).iter().skip(SLOW));
         found
     };
-    residuals.par_iter().map(own).collect()
+    residuals.par_iter().zip(noise).map(own).collect()
 }
 
 fn without_line(series: &[f64]) -> Vec<f64> {

@@ -44,6 +44,7 @@ mod run;
 mod screen;
 mod search;
 mod settings;
+mod slow;
 mod splits;
 mod starts;
 mod step;
