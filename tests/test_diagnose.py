@@ -178,7 +178,8 @@ def test_fixed_and_simulated_are_the_same_question() -> None:
 
 def test_the_true_model_held_is_adequate() -> None:
     true = Model("sinh", (Level(None, {"c0": 0.4, "k0": 8.0, "alpha": 10.0, "beta": 0.3, "F0": 0.0}),))
-    assert mre_core.diagnose(campaign(0.0), true, fixed=True, seed=1).verdict == "adequate"
+    adequate = mre_core.diagnose(campaign(0.0), true, fixed=True, seed=1)
+    assert (adequate.verdict, adequate.refitted) == ("adequate", None)
     wrong = Model("sinh", (Level(None, {"c0": 0.4, "k0": 9.0, "alpha": 10.0, "beta": 0.3, "F0": 0.0}),))
     found = mre_core.diagnose(campaign(0.0), wrong, fixed=True, seed=1)
     assert found.verdict != "adequate"
@@ -187,6 +188,9 @@ def test_the_true_model_held_is_adequate() -> None:
     assert found.refitted.rms_fitted == pytest.approx(found.fit.noise_rms, rel=0.05)
     assert found.refitted.rms_as_given > 3 * found.refitted.rms_fitted
     assert "parameters were kept as given" in str(found)
+    assert found.to_dict()["refitted"]["unit"] == "N"
+    # Fitted anyway, nothing is to be told of it.
+    assert mre_core.diagnose(campaign(), wrong, seed=1).refitted is None
 
 
 def test_currents_have_parameters_of_their_own() -> None:
