@@ -65,8 +65,9 @@ def current_withheld() -> Proof:
 
 def current_law() -> Proof:
     """The current given, but a straight line between 0 and 1 A where the damper saturates."""
-    known = damper([f"{motion}{current}A" for motion in SHORT for current in ("0", "1")])
-    between = damper([f"{motion}0x5A" for motion in SHORT])
+    # By name: given last, those at 0.5 A are as well explained by a stiffness that jumps before them.
+    tests = damper([f"{motion}{current}A" for motion in SHORT for current in ("0", "0x5", "1")])
+    known = [test for test in tests if test.current_level != 0.5]
     model = mre_core.identify(known, "bouc_wen", seed=SEED).model
     return Proof(
         "damper-current-law",
@@ -74,7 +75,7 @@ def current_law() -> Proof:
         "A Bouc-Wen model is identified at 0 A and 1 A and interpolates linearly between them. It is kept as"
         " it is and diagnosed at 0.5 A, where the yield force of the damper is well above the straight line.",
         {"field_dependence": "the parameters change with the current otherwise than the law says"},
-        mre_core.diagnose([*known, *between], model, fixed=True, seed=SEED),
+        mre_core.diagnose(tests, model, fixed=True, seed=SEED),
     )
 
 
