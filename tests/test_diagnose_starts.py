@@ -79,3 +79,55 @@ def test_only_recordings_that_start_in_motion_have_unknown_states(phase: float) 
     for history, own in zip(found.histories, noise, strict=True):
         left = np.asarray(history.measured) - np.asarray(history.final)
         assert np.sqrt(np.mean(left**2)) == pytest.approx(np.sqrt(np.mean(own**2)), rel=0.25)
+
+
+TRUE = {"c0": 0.4, "k0": 8.0, "alpha": 10.0, "beta": 0.3, "F0": 0.0}
+
+
+def in_motion(seed: int, slow: float = 0.0, drift: float = 0.0) -> list[Recording]:
+    """Four sines of the sinh model under white noise of 0.3 N, slow noise and a drift in N."""
+    recordings = []
+    for i, (amplitude, frequency) in enumerate([(2, 0.5), (4, 1), (8, 2), (6, 3)]):
+        random = np.random.default_rng(i + 100 * seed)
+        time = np.arange(1500) / 200.0
+        w = 2 * np.pi * frequency
+        phase = w * time + 0.3 * i + 0.4
+        x, v = amplitude * np.sin(phase), amplitude * w * np.cos(phase)
+        force = 0.4 * v + 8 * x + 10 * np.sinh(0.3 * x) + drift * time / time[-1]
+        white = random.normal(size=len(time))
+        white[1:] *= np.sqrt(1 - 0.995**2)
+        force += slow * lfilter([1], [1, -0.995], white) + 0.3 * random.normal(size=len(time))
+        recordings.append(Recording(time, x, force, velocity=v, name=f"r{i}"))
+    return recordings
+
+
+@pytest.mark.parametrize("drift", [10.0, 20.0])
+def test_decays_from_the_start_hide_no_drift(drift: float) -> None:
+    """Fitted to a line alone, they would leave of it what looks like noise of its size."""
+    found = mre_core.diagnose(in_motion(2, drift=drift), "sinh", seed=1)
+    assert [effect.id for effect in found.effects] == ["force_drift"]
+    assert found.fit.noise_rms == pytest.approx(0.3, rel=0.1)
+    zero = mre_core.Model("sinh", (mre_core.Level(None, TRUE | {"F0": -drift}),))
+    found = mre_core.diagnose(in_motion(2), zero, fixed=True, seed=1)
+    assert found.verdict != "adequate"
+    assert found.fit.noise_rms == pytest.approx(0.3, rel=0.1)
+    assert found.refitted is not None
+    assert found.refitted.rms_fitted == pytest.approx(0.3, rel=0.1)
+
+
+@pytest.mark.parametrize("seed", [10, 14, 25])
+def test_slow_noise_is_no_drift_where_recordings_start_in_motion(seed: int) -> None:
+    assert mre_core.diagnose(in_motion(seed, slow=3.0), "sinh", seed=1).verdict == "adequate"
+
+
+def test_an_unknown_initial_state_is_no_parameter_that_was_kept() -> None:
+    recordings = in_motion(1, drift=20.0)
+    best = mre_core.identify(recordings, "sinh", seed=1)
+    found = mre_core.diagnose(recordings, best.model, fixed=True, seed=1)
+    assert [effect.id for effect in found.effects] == ["force_drift"]
+    assert found.refitted is None
+    wrong = mre_core.Model("sinh", (mre_core.Level(None, TRUE | {"k0": 9.0}),))
+    found = mre_core.diagnose(recordings, wrong, fixed=True, seed=1)
+    assert found.refitted is not None
+    squares = [fit.rms**2 for fit in best.fits]
+    assert found.refitted.rms_fitted == pytest.approx(np.sqrt(np.mean(squares)), rel=1e-6)

@@ -251,7 +251,13 @@ def test_a_swarm_that_ran_out_of_time_is_not_compared() -> None:
 
 
 @pytest.mark.parametrize(
-    "ended", [{"time_limit": 0.001}, {"max_evaluations": 60}, {"callback": lambda *_: True}]
+    "ended",
+    [
+        {"time_limit": 0.001},
+        {"max_evaluations": 60},
+        # So many iterations that the callback is asked: it is, some 20 times a second.
+        {"max_iterations": 1_000_000, "callback": lambda *_: True},
+    ],
 )
 def test_a_run_that_ended_early_shows_its_gap_where_that_is_quick(ended: dict[str, Any]) -> None:
     recording = two_currents()[0]

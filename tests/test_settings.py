@@ -58,7 +58,7 @@ def test_a_run_is_repeated(cli: Cli, tmp_path: Path, sinh_csv: Path) -> None:
 
 def test_other_commands_take_settings(cli: Cli, tmp_path: Path) -> None:
     status, _, err = cli("demo", "--config", toml(tmp_path, "[demo]\niterations = 0"))
-    assert (status, err) == (2, "mre-core: max_iterations is 0: a whole number from 1 to 10000000\n")
+    assert (status, err) == (2, "mre-core: iterations is 0: a whole number from 1 to 10000000\n")
     config = toml(tmp_path, "[next-test]\nfolder = 'a'\nout = 'c.csv'")
     status, _, err = cli("next-test", "--config", config)
     assert status == 2
@@ -86,7 +86,7 @@ def test_tables_of_commands_and_paths(cli: Cli, tmp_path: Path, sinh_4mm: Record
     status, _, err = cli("identify", "--config", toml(folder, text))
     assert (status, err) == (
         2,
-        "mre-core: n_fish is given, wanted no such setting for the optimizer 'exact'\n",
+        "mre-core: fish is given, wanted no such setting for the optimizer 'exact'\n",
     )
     config = toml(folder, text.replace("fish = 5", ""))
     assert cli("identify", "--config", config, "--quiet") == (0, "", "")

@@ -32,6 +32,7 @@ def describe(
                 "unit": run.unit,
                 "rms_N": run.rms,
                 "gap": run.gap,
+                "standing": run.standing,
                 "certificate": _certificate(run.certificate),
                 "reason": str(run.reason),
                 "iterations": run.n_iterations,

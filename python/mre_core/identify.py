@@ -181,7 +181,8 @@ def _with_uncertainty(run: SwarmResult, problem: Problem) -> SwarmResult:
         )
     elif (run.fitness - run.optimum) * samples > run.optimum:
         words += (
-            f"{run.algorithm} stopped short of the optimum by more than noise: the intervals are too narrow",
+            f"{run.algorithm} stopped short of the optimum by more than noise: the 95 % intervals are too"
+            " narrow",
         )
     return replace(run, uncertainty=replace(found, words=words))
 

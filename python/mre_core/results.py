@@ -86,16 +86,18 @@ class SwarmResult:
 
     @property
     def gap(self) -> float | None:
-        """How far the fitness is above the best known one, as a share of it; None where that is not known."""
+        """How far the fitness is above the best known one, as a share of it; None where no share is known."""
+        if self.optimum is not None and self.fitness <= self.optimum:
+            return 0.0
         if self.optimum is None or self.optimum <= 0:
             return None
         return self.fitness / self.optimum - 1
 
     @property
     def standing(self) -> str:
-        """How far the fitness is above the best known one, in words; empty where that is not known."""
+        """How far the fitness is above the best known one, in words; empty for a function's."""
         if self.optimum is None:
-            return ""
+            return "not compared with the best known optimum" if self.unit else ""
         if self.fitness <= self.optimum:
             return "at the best known optimum"
         if self.gap is not None and self.gap < _FAR:

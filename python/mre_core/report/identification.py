@@ -85,7 +85,7 @@ def _warnings(found: "Identification") -> list[str]:
     for i, run in enumerate(found.runs):
         where = f"{_title(found, i)}: " if len(found.runs) > 1 else ""
         said += [f"{where}{p.name} is {p.note}." for p in run.parameters if p.on_bound and not p.at_limit]
-        if run.gap is not None and run.gap > 0.01:
+        if run.optimum is None or run.fitness > 1.01 * run.optimum:
             said.append(f"{where}the fitness is {run.standing}.")
         said += [f"{where}{words}" for words in (run.uncertainty.words if run.uncertainty else ())]
     return said

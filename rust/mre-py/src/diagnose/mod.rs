@@ -84,11 +84,11 @@ pub(crate) fn diagnose_recordings<'py>(
             };
             let settings = Settings::new(false_alarm, seed, &without, &base);
             let Some(found) = diagnose::run(&campaign, &base, &own, &settings, link) else { return Ok(None) };
+            let refitted = diagnose::refitted(&found, &groups, link.cancel(), link);
             let blanks = match blank {
                 0 => None,
                 count => Some(diagnose::blank(&found, &base, &own, &settings, count, link)?),
             };
-            let refitted = diagnose::refitted(&found, &groups, link);
             link.begins(Stage::Done);
             let after = After { blanks, refitted, broken_off: link.broken_off() };
             let text = describe::describe(&found, &base, own.len(), &after).to_string();

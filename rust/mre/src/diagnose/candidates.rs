@@ -5,6 +5,7 @@ use rayon::prelude::*;
 
 use super::begin::starts;
 use super::coherent::without_the_coherent;
+use super::drift::without_drift;
 use super::gaps::LeftOut;
 use super::held::Held;
 use super::least_squares::{Data, Fitted, refine, refine_at_most};
@@ -15,7 +16,7 @@ use super::point::forces;
 use super::screen::Score;
 use super::settings::Settings;
 use super::slow::temper;
-use super::starts::without_initial_state;
+use super::starts::{calm, without_initial_state};
 use crate::assembly::{Assembly, Campaign};
 use crate::effect::{CATALOGUE, Effect};
 
@@ -99,7 +100,9 @@ pub(super) fn noise_left(assembly: &Assembly, data: Data, fitted: &Fitted) -> No
     }
     let campaign = assembly.campaign();
     let left_out: Vec<LeftOut> = (0..left.len()).map(|r| LeftOut::of(campaign, r)).collect();
-    Noise::of(&without_the_coherent(assembly, left), &steps(assembly), freedom, &left_out)
+    let left = without_the_coherent(assembly, left);
+    let calm = calm(assembly, &left);
+    Noise::of(&without_drift(&left, calm), &steps(assembly), freedom, &left_out)
 }
 
 /// Scores of every law beside a fitted model.

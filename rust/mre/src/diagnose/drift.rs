@@ -25,16 +25,21 @@ const POSSIBLE: f64 = 4.0;
 /// Caution: the extrapolated power is taken so many times as large.
 const CAUTION: f64 = 1.25;
 
-/// The residuals without their drift and their means, if there is one.
-pub(super) fn without_drift(residuals: &[Vec<f64>]) -> Vec<Vec<f64>> {
-    let waves = waves(residuals, residuals);
+/// The residuals without their drift and their means, if there is one; `calm` are those of recordings that start in
+/// motion, without anything slow.
+pub(super) fn without_drift(residuals: &[Vec<f64>], calm: Vec<Option<Vec<f64>>>) -> Vec<Vec<f64>> {
+    let waves = waves(residuals, &beside(residuals, &calm));
     if chance_of(residuals, &waves) > CHANCE {
         return residuals.to_vec();
     }
     residuals
         .iter()
         .zip(&waves)
-        .map(|(e, w)| {
+        .zip(calm)
+        .map(|((e, w), calm)| {
+            if let Some(calm) = calm {
+                return calm;
+            }
             let n = e.len();
             // Where a zero drifts, the mean is its own as well.
             let mean = e.iter().sum::<f64>() / n as f64;
@@ -44,12 +49,20 @@ pub(super) fn without_drift(residuals: &[Vec<f64>]) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// Chance that noise alone looks as much like drift as these residuals.
-pub(super) fn chance(residuals: &[Vec<f64>]) -> f64 {
-    chance_beside(residuals, residuals)
+/// Where what a drift leaves is not known, the residuals themselves.
+pub(super) fn beside(residuals: &[Vec<f64>], calm: &[Option<Vec<f64>>]) -> Vec<Vec<f64>> {
+    residuals.iter().zip(calm).map(|(e, calm)| calm.as_ref().unwrap_or(e).clone()).collect()
 }
 
-/// The same, where the noise beside the slow part of these residuals is that of others.
+/// A mean, a line and the slow half-cosines over `n` samples.
+pub(super) fn slow_columns(n: usize) -> Vec<Vec<f64>> {
+    let line = (0..n).map(|i| (i as f64 + 0.5) / n as f64 - 0.5).collect();
+    let waves = (1..=SLOW).map(|k| (0..n).map(|i| wave(n, k, i)).collect());
+    [vec![1.0; n], line].into_iter().chain(waves).collect()
+}
+
+/// Chance that noise alone looks as much like drift as these residuals, where the noise beside their slow part is
+/// that of others.
 pub(super) fn chance_beside(residuals: &[Vec<f64>], noise: &[Vec<f64>]) -> f64 {
     chance_of(residuals, &waves(residuals, noise))
 }
@@ -155,6 +168,10 @@ mod tests {
                 (0..13_400).map(|_| next()).collect::<Vec<f64>>().split_off(12_000)
             })
             .collect()
+    }
+
+    fn chance(residuals: &[Vec<f64>]) -> f64 {
+        chance_beside(residuals, residuals)
     }
 
     /// Of 1/f noise: equal shares of each decade.

@@ -11,7 +11,6 @@
 use rayon::prelude::*;
 
 use super::autoregression::{Choice, Products};
-use super::drift::without_drift;
 use super::gaps::{Gaps, LeftOut};
 use super::hum::without_hum;
 use crate::kernel::filter::{dot, prediction_error};
@@ -36,10 +35,9 @@ struct Filter {
 }
 
 impl Noise {
-    /// Noise of residuals in N; `steps` are the time steps in s, `freedom` the parameters that were fitted
+    /// Noise of residuals in N without drift; `steps` are the time steps in s, `freedom` the parameters that were fitted
     /// to all residuals together, and `left_out` the samples of each recording that tell nothing.
     pub(super) fn of(residuals: &[Vec<f64>], steps: &[f64], freedom: usize, left_out: &[LeftOut]) -> Self {
-        let residuals = &without_drift(residuals)[..];
         let products: Vec<Products> = residuals
             .par_iter()
             .zip(steps)

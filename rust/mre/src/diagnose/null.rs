@@ -2,7 +2,6 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::candidates::residual;
 use super::least_squares::Data;
 use super::normal::whitened;
 use super::point::Point;
@@ -81,12 +80,6 @@ impl<'a> Null<'a> {
     /// The model whose tangents are projected off.
     pub(super) fn assembly(&self) -> &Assembly<'a> {
         &self.assembly
-    }
-
-    /// Residuals of the fitted model in N, of the samples that are scored.
-    pub(super) fn residuals(&self) -> Vec<Vec<f64>> {
-        let forces = self.point.recordings.iter().enumerate();
-        forces.map(|(r, local)| residual(self.assembly.campaign(), r, &local.force)).collect()
     }
 
     /// What effects see of a recording.

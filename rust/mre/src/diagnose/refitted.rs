@@ -1,17 +1,18 @@
 //! What a base whose parameters were kept would leave with fitted ones: wrong parameters look like missing physics.
 
-use super::begin::begin;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
 use super::diagnosis::Diagnosis;
-use super::least_squares::Data;
 use super::monitor::{Monitor, Stage};
-use super::normal::Rows;
-use super::point::forces;
-use super::starts::with_initial_states;
 use super::verdict::Verdict;
-use crate::assembly::Campaign;
+use crate::assembly::{Assembly, Base, Campaign};
+use crate::fit::exact;
 
 /// With fewer samples for each parameter a fit follows the noise.
 const EACH: usize = 5;
+/// What a fit takes off a mismatch that is not of the parameters: less than this share of its rms is not told.
+const TOLD: f64 = 0.05;
 
 /// Rms errors over the samples that count, N.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,24 +23,43 @@ pub struct Refitted {
     pub fitted: f64,
 }
 
-/// Fit the parameters that a diagnosis has kept, in `groups` of recordings that share them.
+/// Fit the parameters that a diagnosis has kept, in `groups` of recordings that share them, by least squares.
 ///
 /// `None` where nothing is missing, where the base is no model without effects whose parameters were kept, where
-/// there are too few samples or no fit is better, and where it was broken off.
-pub fn refitted(found: &Diagnosis, groups: &[Vec<usize>], monitor: &dyn Monitor) -> Option<Refitted> {
+/// there are too few samples or a fit is hardly better, and where it was broken off. After `cancel` is set, as the
+/// monitor's breaking off sets it, it ends soon.
+pub fn refitted(
+    found: &Diagnosis,
+    groups: &[Vec<usize>],
+    cancel: &AtomicBool,
+    monitor: &dyn Monitor,
+) -> Option<Refitted> {
     found.judgement.filter(|judgement| judgement.verdict != Verdict::Adequate)?;
-    let campaign = found.base.assembly.campaign();
-    let base = found.base.assembly.base().unkept(campaign.recordings(), groups)?;
+    let kept = &found.base.assembly;
+    let campaign = kept.campaign();
+    let base = kept.base().unkept(campaign.recordings(), groups)?;
     let parameters: usize = base.groups().iter().map(|group| group.problem.parameters().len()).sum();
-    let rows: Vec<Rows> = campaign.recordings().iter().map(|r| vec![r.scored()]).collect();
     if counted(campaign).len() < EACH * parameters {
         return None;
     }
-    let begun = monitor.stage(Stage::Refit, || begin(campaign, &base, &[], &rows, monitor))?;
-    let data = Data { noise: &begun.noise, rows: &rows, monitor };
-    let force = with_initial_states(&begun.assembly, forces(&begun.assembly, data, &begun.fitted));
-    let both = Refitted { as_given: rms(campaign, &found.base_force), fitted: rms(campaign, &force) };
-    (both.fitted < both.as_given).then_some(both)
+    let force = monitor.stage(Stage::Refit, || fitted_force(campaign, &base, cancel))?;
+    // Without the initial states that a diagnosis fits beside either: they are no parameters of the model.
+    let given = rms(campaign, &kept.base_force(&[], &[]));
+    let both = Refitted { as_given: given, fitted: rms(campaign, &force) };
+    (both.fitted < (1.0 - TOLD) * both.as_given).then_some(both)
+}
+
+/// Forces in N at the optimum of each group.
+fn fitted_force(campaign: &Campaign, base: &Base, cancel: &AtomicBool) -> Vec<Vec<f64>> {
+    let (mut shapes, mut coefficients) = (Vec::new(), Vec::new());
+    for group in base.groups() {
+        let values = exact(&group.problem, cancel).values;
+        shapes.extend(group.shapes.iter().map(|i| values[*i]));
+        coefficients.extend(group.coefficients.iter().map(|i| values[*i]));
+    }
+    let nothing = campaign.recordings().iter().map(|r| vec![0.0; r.len()]).collect();
+    let assembly = Assembly::new(campaign, base, Vec::new(), Arc::new(nothing));
+    assembly.base_force(&assembly.unit(&shapes), &coefficients)
 }
 
 /// Recording and place of each sample that counts.

@@ -1,10 +1,14 @@
 //! Residuals of recordings that start in motion.
 
 use super::candidates::residual;
+use super::drift::slow_columns;
 use super::explained::unexplained;
 use crate::assembly::Assembly;
 use crate::effect::{Effect, InitialState, starts_in_motion};
 use crate::kernel::filter::dot;
+
+/// Ridge on slow columns, which are much alike, as a share of their squares.
+const ALIKE: f64 = 1e-9;
 
 /// Forces in N of a model, with what an unknown initial state explains of what they leave.
 pub(super) fn with_initial_states(assembly: &Assembly, mut forces: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
@@ -25,14 +29,32 @@ pub(super) fn with_initial_states(assembly: &Assembly, mut forces: Vec<Vec<f64>>
 /// A fit under correlated noise does not: it has little against a decay that this noise would make from one large
 /// first sample. Taken for noise, that decay would make the noise such a one.
 pub(super) fn without_initial_state(assembly: &Assembly, r: usize, residual: Vec<f64>) -> Vec<f64> {
-    let recording = &assembly.campaign().recordings()[r];
-    if !starts_in_motion(recording) {
-        return residual;
-    }
-    let columns = InitialState.columns(&assembly.scene(r), &[]);
+    let Some(columns) = decays(assembly, r) else { return residual };
     // No remainder is larger than the force.
     let largest = assembly.campaign().sizes().force;
     let ridge = dot(&residual, &residual) / residual.len() as f64 / largest.powi(2);
-    let columns: Vec<&[f64]> = columns.iter().map(|column| &column[recording.scored()]).collect();
+    let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
     unexplained(residual, &columns, |_| ridge)
+}
+
+/// Residuals in N of the scored samples, less what unknown initial states and a drift explain of them together;
+/// `None` for recordings that start at rest.
+///
+/// Decays that are fitted to a drift alone leave more of it than noise has.
+pub(super) fn calm(assembly: &Assembly, residuals: &[Vec<f64>]) -> Vec<Option<Vec<f64>>> {
+    let of_one = |(r, residual): (usize, &Vec<f64>)| {
+        let mut columns = decays(assembly, r)?;
+        columns.extend(slow_columns(residual.len()));
+        let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+        Some(unexplained(residual.clone(), &columns, |square| ALIKE * square))
+    };
+    residuals.iter().enumerate().map(of_one).collect()
+}
+
+/// What unknown initial states can add to the scored samples, if any.
+fn decays(assembly: &Assembly, r: usize) -> Option<Vec<Vec<f64>>> {
+    let recording = &assembly.campaign().recordings()[r];
+    let scored = |column: Vec<f64>| column[recording.scored()].to_vec();
+    starts_in_motion(recording)
+        .then(|| InitialState.columns(&assembly.scene(r), &[]).into_iter().map(scored).collect())
 }
