@@ -5,13 +5,20 @@
 //! over all recordings together, is taken for drift.
 
 use std::f64::consts::PI;
+use std::iter;
+use std::ops::RangeInclusive;
 
 use rayon::prelude::*;
 
 use super::distribution::chi_square_tail;
+use super::explained::unexplained;
 
 /// Half-cosines that make a drift.
-const SLOW: usize = 3;
+pub(super) const DRIFT: RangeInclusive<usize> = 1..=3;
+/// The mean as a half-cosine.
+pub(super) const MEAN: RangeInclusive<usize> = 0..=0;
+/// Its place in the spectrum: noise whose power rises towards zero has a mean as well.
+const PLACE_OF_THE_MEAN: f64 = 0.1;
 /// Half-cosines from which the spectrum is extrapolated.
 const BESIDE: std::ops::Range<usize> = 5..100;
 /// Chance of an excess by noise below which it is a drift.
@@ -22,6 +29,8 @@ const STEEPNESS: std::ops::RangeInclusive<u32> = 0..=22;
 const CORNERS: [f64; 8] = [0.0, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0];
 /// Spectra whose deviance (minus twice the logarithm of the likelihood) is this much above the least are possible.
 const POSSIBLE: f64 = 4.0;
+/// Ridge on slow columns, which are much alike, as a share of their squares.
+const ALIKE: f64 = 1e-9;
 /// Caution: the extrapolated power is taken so many times as large.
 const CAUTION: f64 = 1.25;
 
@@ -29,24 +38,22 @@ const CAUTION: f64 = 1.25;
 /// motion, without anything slow.
 pub(super) fn without_drift(residuals: &[Vec<f64>], calm: Vec<Option<Vec<f64>>>) -> Vec<Vec<f64>> {
     let waves = waves(residuals, &beside(residuals, &calm));
-    if chance_of(residuals, &waves) > CHANCE {
+    let drifts = chance_of(residuals, &waves, &DRIFT) <= CHANCE;
+    if !drifts && chance_of(residuals, &waves, &MEAN) > CHANCE {
         return residuals.to_vec();
     }
-    residuals
-        .iter()
-        .zip(&waves)
-        .zip(calm)
-        .map(|((e, w), calm)| {
-            if let Some(calm) = calm {
-                return calm;
-            }
-            let n = e.len();
-            // Where a zero drifts, the mean is its own as well.
-            let mean = e.iter().sum::<f64>() / n as f64;
-            let slow = |i: usize| mean + (1..=SLOW).map(|k| w[k - 1] * wave(n, k, i)).sum::<f64>();
-            e.iter().enumerate().map(|(i, e)| e - slow(i)).collect()
-        })
-        .collect()
+    let calmed = |(e, calm): (&Vec<f64>, Option<Vec<f64>>)| {
+        // Where a zero drifts, the mean is its own as well.
+        let slow = slow_columns(e.len());
+        calm.unwrap_or_else(|| without(e, &slow[..if drifts { slow.len() } else { 1 }]))
+    };
+    residuals.iter().zip(calm).map(calmed).collect()
+}
+
+/// A residual less what slow columns explain of it.
+pub(super) fn without(residual: &[f64], slow: &[Vec<f64>]) -> Vec<f64> {
+    let columns: Vec<&[f64]> = slow.iter().map(Vec::as_slice).collect();
+    unexplained(residual.to_vec(), &columns, |square| ALIKE * square)
 }
 
 /// Where what a drift leaves is not known, the residuals themselves.
@@ -57,26 +64,28 @@ pub(super) fn beside(residuals: &[Vec<f64>], calm: &[Option<Vec<f64>>]) -> Vec<V
 /// A mean, a line and the slow half-cosines over `n` samples.
 pub(super) fn slow_columns(n: usize) -> Vec<Vec<f64>> {
     let line = (0..n).map(|i| (i as f64 + 0.5) / n as f64 - 0.5).collect();
-    let waves = (1..=SLOW).map(|k| (0..n).map(|i| wave(n, k, i)).collect());
+    let waves = DRIFT.map(|k| (0..n).map(|i| wave(n, k, i)).collect());
     [vec![1.0; n], line].into_iter().chain(waves).collect()
 }
 
 /// Chance that noise alone looks as much like drift as these residuals, where the noise beside their slow part is
-/// that of others.
-pub(super) fn chance_beside(residuals: &[Vec<f64>], noise: &[Vec<f64>]) -> f64 {
-    chance_of(residuals, &waves(residuals, noise))
+/// that of others. `slow` are the half-cosines of such a drift.
+pub(super) fn chance_beside(residuals: &[Vec<f64>], noise: &[Vec<f64>], slow: &RangeInclusive<usize>) -> f64 {
+    chance_of(residuals, &waves(residuals, noise), slow)
 }
 
-fn chance_of(residuals: &[Vec<f64>], waves: &[Vec<f64>]) -> f64 {
-    chi_square_tail(excess(residuals, waves) / CAUTION, SLOW * waves.len())
+fn chance_of(residuals: &[Vec<f64>], waves: &[Vec<f64>], slow: &RangeInclusive<usize>) -> f64 {
+    let freedom = slow.clone().count() * waves.len();
+    chi_square_tail(excess(residuals, waves, slow) / CAUTION, freedom)
 }
 
-/// Amplitudes of the slow half-cosines of each residual, then those of what a line leaves of its noise, up to half
-/// its sampling rate: a drift is a line above all, which reaches into the faster ones.
+/// Amplitudes of the mean and the slow half-cosines of each residual, then those of what a line leaves of its noise,
+/// up to half its sampling rate: a drift is a line above all, which reaches into the faster ones.
 fn waves(residuals: &[Vec<f64>], noise: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let own = |(e, noise): (&Vec<f64>, &Vec<f64>)| {
-        let mut found = amplitudes(e, SLOW + 1);
-        found.extend(amplitudes(&without_line(noise), BESIDE.end.min(e.len() / 2)).iter().skip(SLOW));
+        let mut found = amplitudes(e, DRIFT.end() + 1);
+        let faster = amplitudes(&without_line(noise), BESIDE.end.min(e.len() / 2));
+        found.extend(faster.iter().skip(found.len()));
         found
     };
     residuals.par_iter().zip(noise).map(own).collect()
@@ -98,7 +107,7 @@ fn wave(n: usize, k: usize, i: usize) -> f64 {
     (2.0 / n as f64).sqrt() * (PI * k as f64 * (i as f64 + 0.5) / n as f64).cos()
 }
 
-/// Amplitudes of half-cosines 1 to `end` - 1, by turning all of them from sample to sample.
+/// Amplitudes of the mean and half-cosines 1 to `end` - 1, by turning all of them from sample to sample.
 fn amplitudes(series: &[f64], end: usize) -> Vec<f64> {
     let n = series.len() as f64;
     let angle = |k: usize| PI * k as f64 / n;
@@ -112,29 +121,32 @@ fn amplitudes(series: &[f64], end: usize) -> Vec<f64> {
         }
     }
     let norm = (2.0 / n).sqrt();
-    sums.into_iter().map(|sum| norm * sum).collect()
+    let mean = series.iter().sum::<f64>() / n.sqrt();
+    iter::once(mean).chain(sums.into_iter().map(|sum| norm * sum)).collect()
 }
 
 /// Squares of the slow amplitudes of all residuals over the extrapolated powers, the largest that are possible.
 ///
 /// The spectra have levels of their own and one shape, flat below a corner (an autoregression) or not (1/f noise).
 /// The likelihood of the squares is Whittle's.
-fn excess(residuals: &[Vec<f64>], waves: &[Vec<f64>]) -> f64 {
+fn excess(residuals: &[Vec<f64>], waves: &[Vec<f64>], slow: &RangeInclusive<usize>) -> f64 {
     let longest = residuals.iter().map(Vec::len).max().unwrap_or(1) as f64;
     let shape = |corner: f64, steepness: f64| {
         let own = |(e, w): (&Vec<f64>, &Vec<f64>)| {
             let corner = corner * e.len() as f64 / longest;
-            let power = |k: usize| ((k * k) as f64 + corner * corner).powf(-0.5 * steepness);
-            let beside: Vec<(f64, f64)> =
-                (BESIDE.start..=w.len()).map(|k| (w[k - 1].powi(2), power(k))).collect();
+            let power = |k: usize| {
+                let place = if k == 0 { PLACE_OF_THE_MEAN } else { k as f64 };
+                (place * place + corner * corner).powf(-0.5 * steepness)
+            };
+            let beside: Vec<(f64, f64)> = (BESIDE.start..w.len()).map(|k| (w[k].powi(2), power(k))).collect();
             let count = beside.len() as f64;
             let level = beside.iter().map(|(square, power)| square / power).sum::<f64>() / count;
             let level = level.max(f64::MIN_POSITIVE);
-            let over = (1..=SLOW).map(|k| w[k - 1].powi(2) / (level * power(k))).sum::<f64>();
+            let over = slow.clone().map(|k| w[k].powi(2) / (level * power(k))).sum::<f64>();
             (count * level.ln() + beside.iter().map(|(_, power)| power.ln()).sum::<f64>(), over)
         };
         // One with hardly a spectrum tells nothing.
-        let told = residuals.iter().zip(waves).filter(|(_, w)| w.len() > 2 * BESIDE.start);
+        let told = residuals.iter().zip(waves).filter(|(_, w)| w.len() > 2 * BESIDE.start + 1);
         told.map(own).fold((0.0, 0.0), |sum, one| (sum.0 + one.0, sum.1 + one.1))
     };
     let shapes: Vec<(f64, f64)> = CORNERS
@@ -171,7 +183,7 @@ mod tests {
     }
 
     fn chance(residuals: &[Vec<f64>]) -> f64 {
-        chance_beside(residuals, residuals)
+        chance_beside(residuals, residuals, &DRIFT)
     }
 
     /// Of 1/f noise: equal shares of each decade.

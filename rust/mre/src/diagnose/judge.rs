@@ -69,7 +69,7 @@ fn alone<'a>(
     let parameters = named.fitted.parameters() - base.parameters();
     let improvement = explained - parameters as f64 * (base.rows as f64).ln();
     // A drift has parameters in every recording, and even smooth forces have a slow part.
-    let drifts = named.assembly.effects().iter().any(|e| e.slow() && e.of_the_measurement());
+    let drifts = named.assembly.effects().iter().any(|e| e.slow().is_some() && e.of_the_measurement());
     let surpassed = effects > 0 && !drifts && of_all.improvement > improvement + CLEAR;
     let wandering = last.as_ref().map_or(Mismatch::NONE, Null::wandering);
     let tests = Tests { first, rest, smooth: of_rest.p_value, wandering, explained, change, surpassed };

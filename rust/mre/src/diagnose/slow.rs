@@ -1,7 +1,7 @@
 //! p-values of effects that are as slow as slow noise.
 
 use super::candidates::{joint, residuals};
-use super::drift::{beside, chance_beside};
+use super::drift::{DRIFT, MEAN, beside, chance_beside};
 use super::least_squares::Data;
 use super::null::Null;
 use super::screen::Score;
@@ -22,13 +22,18 @@ pub(super) fn temper(
 ) {
     // Of all residuals, what unknown initial states explain is taken off.
     let left = residuals(assembly, data, &null.point.fitted);
-    let mut slow = chance_beside(&left, &beside(&left, &calm(assembly, &left)));
-    let strongest = scores.iter().filter(|s| s.effect.slow() && s.p_value < level && slow > s.p_value);
-    if let Some(strongest) = strongest.max_by(|a, b| a.gain.total_cmp(&b.gain)) {
-        let wider = joint(assembly, data, unit, strongest.effect, &strongest.start);
-        slow = slow.min(chance_beside(&left, &residuals(&wider.assembly, data, &wider.fitted)));
-    }
-    for score in scores.iter_mut().filter(|s| s.effect.slow() && s.p_value < slow) {
-        score.p_value = slow;
+    let noise = beside(&left, &calm(assembly, &left));
+    for waves in [MEAN, DRIFT] {
+        let own = |s: &Score| s.effect.slow() == Some(waves.clone());
+        let mut chance = chance_beside(&left, &noise, &waves);
+        let strongest = scores.iter().filter(|s| own(s) && s.p_value < level && chance > s.p_value);
+        if let Some(strongest) = strongest.max_by(|a, b| a.gain.total_cmp(&b.gain)) {
+            let wider = joint(assembly, data, unit, strongest.effect, &strongest.start);
+            let noise = residuals(&wider.assembly, data, &wider.fitted);
+            chance = chance.min(chance_beside(&left, &noise, &waves));
+        }
+        for score in scores.iter_mut().filter(|s| own(s) && s.p_value < chance) {
+            score.p_value = chance;
+        }
     }
 }

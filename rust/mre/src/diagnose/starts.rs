@@ -1,14 +1,11 @@
 //! Residuals of recordings that start in motion.
 
 use super::candidates::residual;
-use super::drift::slow_columns;
+use super::drift::{slow_columns, without};
 use super::explained::unexplained;
 use crate::assembly::Assembly;
 use crate::effect::{Effect, InitialState, starts_in_motion};
 use crate::kernel::filter::dot;
-
-/// Ridge on slow columns, which are much alike, as a share of their squares.
-const ALIKE: f64 = 1e-9;
 
 /// Forces in N of a model, with what an unknown initial state explains of what they leave.
 pub(super) fn with_initial_states(assembly: &Assembly, mut forces: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
@@ -45,8 +42,7 @@ pub(super) fn calm(assembly: &Assembly, residuals: &[Vec<f64>]) -> Vec<Option<Ve
     let of_one = |(r, residual): (usize, &Vec<f64>)| {
         let mut columns = decays(assembly, r)?;
         columns.extend(slow_columns(residual.len()));
-        let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
-        Some(unexplained(residual.clone(), &columns, |square| ALIKE * square))
+        Some(without(residual, &columns))
     };
     residuals.iter().enumerate().map(of_one).collect()
 }

@@ -179,6 +179,7 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &EndStop::Hertz,
     &Rig::Spring,
     &Rig::Viscoelastic,
+    &Drift::Constant,
     &Drift::Linear,
     &Drift::Decaying,
     &Drift::Slow,

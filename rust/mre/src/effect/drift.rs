@@ -1,14 +1,15 @@
-//! Force drift: the zero of the load cell wanders.
+//! Force drift: the zero of the load cell wanders, or is off from the start.
 //!
 //! | symbol | meaning | unit | range |
 //! |---|---|---|---|
-//! | D, `D_k` | drift over the longest recording, in the end, or of a half cosine | N | any, in each recording |
+//! | D, `D_k` | drift throughout, over the longest recording, in the end, or of a half cosine | N | any, in each recording |
 //! | `tau_d` | time over which it settles | s | 3 % to 200 % of the longest recording |
 //!
 //! Of the measurement, not of the device: a simulation leaves it out.
 //! Known limit: under a mean displacement it cannot be told from creep.
 
 use std::f64::consts::PI;
+use std::ops::RangeInclusive;
 
 use super::{About, Effect, Scene, Sizes, order_within, signed};
 use crate::parameter::Parameter;
@@ -16,6 +17,8 @@ use crate::parameter::Parameter;
 /// Form of the drift.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Drift {
+    /// The same throughout a recording.
+    Constant,
     /// In proportion to the time.
     Linear,
     /// Settling.
@@ -35,6 +38,13 @@ impl Effect for Drift {
             limit: "under a mean displacement it cannot be told from creep",
         };
         match self {
+            Self::Constant => About {
+                law: "constant",
+                plain: "the zero of the measured force is off",
+                equation: "F_measured = F + D",
+                limit: "a force that the device exerts at rest is the same",
+                ..linear
+            },
             Self::Linear => linear,
             Self::Decaying => {
                 About { law: "settling", equation: "F_measured = F + D (1 - exp(-t/tau_d))", ..linear }
@@ -47,8 +57,8 @@ impl Effect for Drift {
         }
     }
 
-    fn slow(&self) -> bool {
-        true
+    fn slow(&self) -> Option<RangeInclusive<usize>> {
+        Some(if matches!(self, Self::Constant) { 0..=0 } else { 1..=3 })
     }
 
     fn of_the_measurement(&self) -> bool {
@@ -57,7 +67,7 @@ impl Effect for Drift {
 
     fn coefficients(&self) -> Vec<Parameter> {
         match self {
-            Self::Linear | Self::Decaying => vec![signed("D", "N")],
+            Self::Constant | Self::Linear | Self::Decaying => vec![signed("D", "N")],
             Self::Slow => (1..=3).map(|k| signed(&format!("D_{k}"), "N")).collect(),
         }
     }
@@ -67,14 +77,14 @@ impl Effect for Drift {
             Self::Decaying => {
                 vec![order_within("tau_d", "s", 0.03 * sizes.duration, 2.0 * sizes.duration)]
             }
-            Self::Linear | Self::Slow => Vec::new(),
+            Self::Constant | Self::Linear | Self::Slow => Vec::new(),
         }
     }
 
     fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
         match self {
             Self::Decaying => [0.05, 0.15, 0.5].iter().map(|share| vec![share * sizes.duration]).collect(),
-            Self::Linear | Self::Slow => vec![Vec::new()],
+            Self::Constant | Self::Linear | Self::Slow => vec![Vec::new()],
         }
     }
 
@@ -82,6 +92,7 @@ impl Effect for Drift {
         let column =
             |value: &dyn Fn(f64) -> f64| scene.time.iter().map(|t| value(t - scene.time[0])).collect();
         match self {
+            Self::Constant => vec![column(&|_| 1.0)],
             Self::Linear => vec![column(&|t| t / scene.sizes.duration)],
             Self::Decaying => vec![column(&|t| -(-t / shape[0]).exp_m1())],
             Self::Slow => {

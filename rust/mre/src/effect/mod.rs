@@ -51,6 +51,8 @@ pub(crate) use operators::slope;
 pub use quantisation::Quantisation;
 pub use scene::{Acceleration, Scene, Sizes};
 
+use std::ops::RangeInclusive;
+
 use crate::parameter::{Parameter, Scale};
 
 /// What is known about a law.
@@ -154,10 +156,10 @@ pub trait Effect: Send + Sync {
         0.0
     }
 
-    /// True where the effect is so slow that slow noise looks like it: it also has to exceed what the noise's
-    /// spectrum extends to.
-    fn slow(&self) -> bool {
-        false
+    /// Half-cosines over a recording, the mean as the 0th, of an effect so slow that slow noise looks like it: in
+    /// these it also has to exceed what the noise's spectrum extends to.
+    fn slow(&self) -> Option<RangeInclusive<usize>> {
+        None
     }
 
     /// False of what goes on whatever moves: it cannot stand for what is wrong in the form of another effect.
