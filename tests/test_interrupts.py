@@ -99,7 +99,7 @@ def test_interrupt_of_the_command(tmp_path: Path) -> None:
     finally:
         job.kill()
     assert (job.returncode, error) == (130, "")
-    assert "stopped by interrupted" in shown
+    assert "stopped by interrupted" in " ".join(shown.split())
     # Whole files of what was found so far, without figures; the current that was not begun has no level.
     assert everything_in(out) == {"model.json", "identification.json", "report.html", "settings.toml"}
     content = json.loads((out / "model.json").read_text(encoding="utf-8"))

@@ -192,8 +192,25 @@ mod tests {
     #[test]
     fn slow_noise_is_no_drift() {
         for poles in [&[0.0][..], &[0.97], &[0.995], &PINK] {
-            let alarms = (0..200).filter(|seed| chance(&recordings(poles, *seed)) < 0.01).count();
-            assert!(alarms <= 8, "{alarms} of 200 at {poles:?}");
+            for slow in [MEAN, DRIFT] {
+                let chance = |noise: Vec<Vec<f64>>| chance_beside(&noise, &noise, &slow);
+                let alarms = (0..200).filter(|seed| chance(recordings(poles, *seed)) < 0.01).count();
+                assert!(alarms <= 8, "{alarms} of 200 at {poles:?}, {slow:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_zero_that_is_off_leaves_the_noise_alone() {
+        let noise = recordings(&[0.0], 1);
+        let off: Vec<Vec<f64>> = noise.iter().map(|e| e.iter().map(|e| e + 7.0).collect()).collect();
+        assert!(chance(&off) > 0.01);
+        assert!(chance_beside(&off, &off, &MEAN) < 1e-6);
+        let left = without_drift(&off, vec![None; off.len()]);
+        assert_eq!(without_drift(&noise, vec![None; off.len()]), noise);
+        for (left, noise) in left.iter().zip(&noise) {
+            let mean = noise.iter().sum::<f64>() / noise.len() as f64;
+            assert!(left.iter().zip(noise).all(|(left, e)| (left - (e - mean)).abs() < 1e-6));
         }
     }
 
