@@ -102,7 +102,7 @@ pub(super) fn noise_left(assembly: &Assembly, data: Data, fitted: &Fitted) -> No
     let left_out: Vec<LeftOut> = (0..left.len()).map(|r| LeftOut::of(campaign, r)).collect();
     let left = without_the_coherent(assembly, left);
     let calm = calm(assembly, &left);
-    Noise::of(&without_drift(&left, calm), &steps(assembly), freedom, &left_out)
+    Noise::of(&without_drift(&left, &calm), &steps(assembly), freedom, &left_out)
 }
 
 /// Scores of every law beside a fitted model.

@@ -35,19 +35,20 @@ const ALIKE: f64 = 1e-9;
 const CAUTION: f64 = 1.25;
 
 /// The residuals without their drift and their means, if there is one; `calm` are those of recordings that start in
-/// motion, without anything slow.
-pub(super) fn without_drift(residuals: &[Vec<f64>], calm: Vec<Option<Vec<f64>>>) -> Vec<Vec<f64>> {
-    let waves = waves(residuals, &beside(residuals, &calm));
+/// motion, without a line.
+pub(super) fn without_drift(residuals: &[Vec<f64>], calm: &[Option<Vec<f64>>]) -> Vec<Vec<f64>> {
+    let beside = beside(residuals, calm);
+    let waves = waves(residuals, &beside);
     let drifts = chance_of(residuals, &waves, &DRIFT) <= CHANCE;
     if !drifts && chance_of(residuals, &waves, &MEAN) > CHANCE {
         return residuals.to_vec();
     }
-    let calmed = |(e, calm): (&Vec<f64>, Option<Vec<f64>>)| {
+    let calmed = |e: &Vec<f64>| {
         // Where a zero drifts, the mean is its own as well.
         let slow = slow_columns(e.len());
-        calm.unwrap_or_else(|| without(e, &slow[..if drifts { slow.len() } else { 1 }]))
+        without(e, &slow[..if drifts { slow.len() } else { 1 }])
     };
-    residuals.iter().zip(calm).map(calmed).collect()
+    beside.iter().map(calmed).collect()
 }
 
 /// A residual less what slow columns explain of it.
@@ -62,10 +63,14 @@ pub(super) fn beside(residuals: &[Vec<f64>], calm: &[Option<Vec<f64>>]) -> Vec<V
 }
 
 /// A mean, a line and the slow half-cosines over `n` samples.
-pub(super) fn slow_columns(n: usize) -> Vec<Vec<f64>> {
-    let line = (0..n).map(|i| (i as f64 + 0.5) / n as f64 - 0.5).collect();
+fn slow_columns(n: usize) -> Vec<Vec<f64>> {
     let waves = DRIFT.map(|k| (0..n).map(|i| wave(n, k, i)).collect());
-    [vec![1.0; n], line].into_iter().chain(waves).collect()
+    line(n).into_iter().chain(waves).collect()
+}
+
+/// A mean and a slope over `n` samples.
+pub(super) fn line(n: usize) -> [Vec<f64>; 2] {
+    [vec![1.0; n], (0..n).map(|i| (i as f64 + 0.5) / n as f64 - 0.5).collect()]
 }
 
 /// Chance that noise alone looks as much like drift as these residuals, where the noise beside their slow part is
@@ -210,8 +215,8 @@ mod tests {
         let off: Vec<Vec<f64>> = noise.iter().map(|e| e.iter().map(|e| e + 7.0).collect()).collect();
         assert!(chance(&off) > 0.01);
         assert!(chance_beside(&off, &off, &MEAN) < 1e-6);
-        let left = without_drift(&off, vec![None; off.len()]);
-        assert_eq!(without_drift(&noise, vec![None; off.len()]), noise);
+        let left = without_drift(&off, &vec![None; off.len()]);
+        assert_eq!(without_drift(&noise, &vec![None; off.len()]), noise);
         for (left, noise) in left.iter().zip(&noise) {
             let mean = noise.iter().sum::<f64>() / noise.len() as f64;
             assert!(left.iter().zip(noise).all(|(left, e)| (left - (e - mean)).abs() < 1e-6));

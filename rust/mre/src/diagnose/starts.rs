@@ -1,7 +1,7 @@
 //! Residuals of recordings that start in motion.
 
 use super::candidates::residual;
-use super::drift::{slow_columns, without};
+use super::drift::{line, without};
 use super::explained::unexplained;
 use crate::assembly::Assembly;
 use crate::effect::{Effect, InitialState, starts_in_motion};
@@ -34,14 +34,15 @@ pub(super) fn without_initial_state(assembly: &Assembly, r: usize, residual: Vec
     unexplained(residual, &columns, |_| ridge)
 }
 
-/// Residuals in N of the scored samples, less what unknown initial states and a drift explain of them together;
+/// Residuals in N of the scored samples, less what unknown initial states and a line explain of them together;
 /// `None` for recordings that start at rest.
 ///
-/// Decays that are fitted to a drift alone leave more of it than noise has.
+/// Decays that are fitted to a drift alone leave more of it than noise has. More columns than those of a line would
+/// take off what slow noise is known by.
 pub(super) fn calm(assembly: &Assembly, residuals: &[Vec<f64>]) -> Vec<Option<Vec<f64>>> {
     let of_one = |(r, residual): (usize, &Vec<f64>)| {
         let mut columns = decays(assembly, r)?;
-        columns.extend(slow_columns(residual.len()));
+        columns.extend(line(residual.len()));
         Some(without(residual, &columns))
     };
     residuals.iter().enumerate().map(of_one).collect()
