@@ -48,3 +48,19 @@ def test_an_offset_of_kept_parameters_is_told_as_one_of_them_too() -> None:
 @pytest.mark.parametrize("seed", range(3))
 def test_slow_noise_has_means_and_is_no_offset(seed: int) -> None:
     assert mre_core.diagnose(from_rest(slow=2.0, seed=seed), "simulated", seed=1).verdict == "adequate"
+
+
+def test_zeros_of_recordings_in_motion_are_off_and_do_not_settle() -> None:
+    """The decays of unknown initial states beside a settling drift look like a constant one."""
+    recordings = []
+    for i, (zero, (amplitude, frequency)) in enumerate(
+        zip([0.0, 3.0, -3.0, 6.0], [(2, 0.5), (4, 1), (8, 2), (6, 3)], strict=True)
+    ):
+        random = np.random.default_rng([1, i])
+        time = np.arange(1000) / 200.0
+        turn = 2 * np.pi * frequency
+        x, v = amplitude * np.sin(turn * time + 0.4), amplitude * turn * np.cos(turn * time + 0.4)
+        force = 0.4 * v + 8 * x + 10 * np.sinh(0.3 * x) + zero + NOISE * random.normal(size=len(time))
+        recordings.append(Recording(time, x, force, velocity=v, name=f"r{i}"))
+    found = mre_core.diagnose(recordings, "sinh", seed=1)
+    assert [(effect.id, effect.law) for effect in found.effects] == [("force_drift", "constant")]

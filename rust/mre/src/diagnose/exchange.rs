@@ -45,14 +45,18 @@ impl<'a> Search<'_, 'a> {
         Some(best)
     }
 
-    /// The best of other candidates, if it is clearly better than a known one.
+    /// The best of other candidates, if it is clearly better than a known one, or better and simpler.
     fn better(
         &self,
         noise: &Noise,
         known: &Candidate<'a>,
         mut others: Vec<Candidate<'a>>,
     ) -> Option<Candidate<'a>> {
-        others.retain(|c| c.criterion() < known.criterion() - CLEAR);
+        // What is simpler need not be better by much.
+        let clear = |c: &Candidate<'a>| {
+            if c.fitted.parameters() < known.fitted.parameters() { 0.0 } else { CLEAR }
+        };
+        others.retain(|c| c.criterion() < known.criterion() - clear(c));
         others.sort_by(|a, b| a.criterion().total_cmp(&b.criterion()));
         if !noise.hidden() {
             return others.into_iter().next();
@@ -152,12 +156,11 @@ impl<'a> Search<'_, 'a> {
     ) -> Option<Named<'a>> {
         self.monitor.begins(Stage::Pairs);
         let data = self.data(&single.noise);
-        let given = self.given();
-        let known = single.assembly.effects()[given].about().effect;
+        let known = single.itself().added();
         let mut firsts: Vec<Candidate> = Vec::new();
         for candidate in candidates(&before.assembly, data, &before.fitted.unit, &before.scores, REFITTED) {
-            let id = candidate.assembly.effects()[given].about().effect;
-            let seen = firsts.iter().any(|f| f.assembly.effects()[given].about().effect == id);
+            let id = candidate.added();
+            let seen = firsts.iter().any(|first| first.added() == id);
             if id != known && !seen && firsts.len() < FIRSTS {
                 firsts.push(candidate);
             }

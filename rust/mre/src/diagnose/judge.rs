@@ -5,6 +5,7 @@ use super::candidates::{Candidate, fit};
 use super::least_squares::{Data, Fitted, refine};
 use super::missing::{Generic, Mismatch};
 use super::monitor::Monitor;
+use super::needless::keeping;
 use super::normal::Rows;
 use super::null::Null;
 use super::point::forces;
@@ -58,15 +59,20 @@ fn alone<'a>(
     let base = refine(&begun.assembly, data, &begun.fitted.unit);
     let beside = |assembly: &Assembly<'a>, fitted: &Fitted| Null::new(assembly, data, &fitted.unit);
     let (alone, last) = (beside(&begun.assembly, &base), beside(&named.assembly, &named.fitted));
+    let hummed = beside_the_hum(begun, &named, data);
     let mismatch =
         |null: Option<&Null>| null.map(Null::generic).as_ref().map_or(Mismatch::NONE, Generic::mismatch);
     let (first, rest) = (mismatch(alone.as_ref()), mismatch(last.as_ref()));
     let smooth = |null: Option<&Null>| null.map_or(Unnamed::NONE, |null| unnamed::best(null, base.rows));
-    let (of_all, of_rest) = (smooth(alone.as_ref()), smooth(last.as_ref()));
-    let explained = (base.left - named.fitted.left).max(0.0);
+    let all = hummed.as_ref().map(|c| beside(&c.assembly, &c.fitted));
+    let of_all = smooth(all.as_ref().unwrap_or(&alone).as_ref());
+    let of_rest = smooth(last.as_ref());
+    let before = hummed.as_ref().map_or(&base, |c| &c.fitted);
+    let explained = (before.left - named.fitted.left).max(0.0);
     let change = rms_change(&named, data);
-    let effects = named.assembly.effects().len() - begun.assembly.effects().len();
-    let parameters = named.fitted.parameters() - base.parameters();
+    let given = hummed.as_ref().map_or(&begun.assembly, |c| &c.assembly).effects().len();
+    let effects = named.assembly.effects().len() - given;
+    let parameters = named.fitted.parameters() - before.parameters();
     let improvement = explained - parameters as f64 * (base.rows as f64).ln();
     // A drift has parameters in every recording, and even smooth forces have a slow part.
     let drifts = named.assembly.effects().iter().any(|e| e.slow().is_some() && e.of_the_measurement());
@@ -76,6 +82,15 @@ fn alone<'a>(
     let evidence = Evidence::new(&tests, &named, begun.noise.hidden(), false_alarm);
     let verdict = evidence.verdict(effects);
     Judged { named, base, evidence, verdict }
+}
+
+/// The base with the hum that is named beside other effects: these are judged by what they explain themselves.
+fn beside_the_hum<'a>(begun: &Begun<'a>, named: &Named<'a>, data: Data) -> Option<Candidate<'a>> {
+    let given = begun.assembly.effects().len();
+    let (effects, count) = (named.assembly.effects(), named.assembly.effects().len());
+    let still = |place: usize| place < given || !effects[place].follows_the_motion();
+    let hum = (given..count).filter(|place| still(*place)).count();
+    (hum > 0 && hum < count - given).then(|| keeping(named, data, still))
 }
 
 /// Effects refer to the force of the base as it is in the joint model, as a simulation will have it.

@@ -1,26 +1,35 @@
 //! Models without one of their effects.
 
 use super::candidates::{Candidate, fit};
+use super::least_squares::Data;
 use super::monitor::Stage;
 use super::noise::Noise;
 use super::prove::prove;
 use super::search::{Named, Search};
 
+/// A model with those of its effects, by place, that are kept, refitted.
+pub(super) fn keeping<'a>(named: &Named<'a>, data: Data, kept: impl Fn(usize) -> bool) -> Candidate<'a> {
+    let sizes = named.assembly.campaign().sizes();
+    let shapes = named.assembly.physical(&named.fitted.unit);
+    let (base, mut rest) = shapes.split_at(named.assembly.base_shapes());
+    let (mut effects, mut own) = (Vec::new(), base.to_vec());
+    for (place, effect) in named.assembly.effects().iter().enumerate() {
+        let (shape, others) = rest.split_at(effect.shape(sizes).len());
+        rest = others;
+        if kept(place) {
+            effects.push(*effect);
+            own.extend_from_slice(shape);
+        }
+    }
+    let narrower = named.assembly.with(effects);
+    let unit = narrower.unit(&own);
+    fit(narrower, data, &unit)
+}
+
 impl<'a> Search<'_, 'a> {
     /// A model without one of its effects, refitted.
     pub(super) fn drop(&self, named: &Named<'a>, place: usize) -> Candidate<'a> {
-        let mut effects = named.assembly.effects().to_vec();
-        effects.remove(place);
-        let narrower = named.assembly.with(effects);
-        let sizes = named.assembly.campaign().sizes();
-        let mut shapes = named.assembly.physical(&named.fitted.unit);
-        let first: usize = named.assembly.base_shapes()
-            + named.assembly.effects()[..place].iter().map(|e| e.shape(sizes).len()).sum::<usize>();
-        let count = named.assembly.effects()[place].shape(sizes).len();
-        shapes.drain(first..first + count);
-        let data = self.data(&named.noise);
-        let unit = narrower.unit(&shapes);
-        fit(narrower, data, &unit)
+        keeping(named, self.data(&named.noise), |other| other != place)
     }
 
     /// Remove effects that the others make unnecessary.

@@ -91,7 +91,7 @@ impl<'a> Search<'_, 'a> {
         let (mut first, mut removed_by_first) = (None, 0.0);
         let mut replacements = 0;
         while self.found(&here) < MOST {
-            if self.found(&here) > 0 {
+            if self.moved(&here) > 0 {
                 let mut tried = self.in_turn(&here).into_iter();
                 if let Some(wider) = tried.find_map(|next| self.worth_adding(&here, next, removed_by_first)) {
                     here = wider;
@@ -101,13 +101,19 @@ impl<'a> Search<'_, 'a> {
                 let Some(other) = other else { break };
                 here = other;
                 replacements += 1;
-                if self.found(&here) == 1 {
+                if self.moved(&here) == 1 {
                     first = Some(here.clone());
                 }
                 continue;
             }
             let single = self.in_turn(&here).into_iter().find_map(|next| self.wider(&here, next));
             let Some(single) = single else { break };
+            // A hum has nothing in its form that another effect could patch: the first is the first beside it.
+            if self.moved(&single) == 0 {
+                let best = self.best_law(single.clone());
+                here = best.unwrap_or(single);
+                continue;
+            }
             let Some((best, removed)) = self.best_of_first(&here, &single) else {
                 here = single;
                 break;
@@ -117,7 +123,7 @@ impl<'a> Search<'_, 'a> {
             here = best;
         }
         let named = self.without_the_needless(self.best_beside_each_other(here));
-        let more = self.found(&named) > 1;
+        let more = self.moved(&named) > 1;
         (named, first.filter(|_| more))
     }
 
@@ -158,6 +164,11 @@ impl<'a> Search<'_, 'a> {
     /// Number of effects that were found.
     pub(super) fn found(&self, named: &Named) -> usize {
         named.assembly.effects().len() - self.given()
+    }
+
+    /// Number of these that follow the motion.
+    fn moved(&self, named: &Named) -> usize {
+        named.assembly.effects()[self.given()..].iter().filter(|e| e.follows_the_motion()).count()
     }
 
     /// Score the catalogue beside a model, with the noise that the best of a few candidates leaves.

@@ -7,7 +7,7 @@
 //! Reference: Nordin and Gutman, Automatica 38 (2002) 1633.
 //! Known limit: where g is small against all strokes only the jumps at reversals show it.
 
-use super::operators::{each, play};
+use super::operators::each;
 use super::{About, Effect, Motion, Scene, Sizes, within};
 use crate::parameter::Parameter;
 
@@ -22,9 +22,30 @@ pub(super) enum Backlash {
     Play,
 }
 
+/// Gaps of a play that are tried: the smallest over the largest displacement, by which factor they rise, and how many they are.
+const SMALLEST: f64 = 3e-4;
+const RATIO: f64 = 1.6;
+const COUNT: i32 = 15;
+
 /// Displacement beyond a gap of half width `g`.
 fn beyond(x: f64, g: f64) -> f64 {
     x - x.clamp(-g, g)
+}
+
+/// Displacement of what is dragged with a gap of half width `g`: it stops where the motion turns, which is between
+/// samples.
+fn dragged(scene: &Scene, g: f64) -> Vec<f64> {
+    let (time, x, v) = (scene.time, scene.displacement, scene.velocity);
+    scene.trace(x[0], |p, i| {
+        let (from, to) = (v[i - 1], v[i]);
+        let turned = if from * to < 0.0 {
+            let turn = x[i - 1] + 0.5 * (time[i] - time[i - 1]) * from * from / (from - to);
+            p.max(turn - g).min(turn + g)
+        } else {
+            p
+        };
+        turned.max(x[i] - g).min(x[i] + g)
+    })
 }
 
 impl Effect for Backlash {
@@ -58,19 +79,25 @@ impl Effect for Backlash {
     }
 
     fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
-        [0.01, 0.03, 0.08, 0.16, 0.3].iter().map(|share| vec![share * sizes.displacement]).collect()
+        let shares: Vec<f64> = match self {
+            Self::DeadZone | Self::FreeDeadZone => vec![0.003, 0.01, 0.03, 0.08, 0.16, 0.3],
+            // One of twice the right size explains nothing.
+            Self::Play => (0..COUNT).map(|k| SMALLEST * RATIO.powi(k)).collect(),
+        };
+        shares.iter().map(|share| vec![share * sizes.displacement]).collect()
     }
 
     fn motion(&self, scene: &Scene, shape: &[f64]) -> Option<Motion> {
         let (x, v, g) = (scene.displacement, scene.velocity, shape[0]);
         let displacement = match self {
             Self::DeadZone | Self::FreeDeadZone => each(x, |x| beyond(x, g)),
-            Self::Play => play(x, g),
+            Self::Play => dragged(scene, g),
         };
         let moving = |i: usize| match self {
             Self::DeadZone => true,
             Self::FreeDeadZone => displacement[i] != 0.0,
-            Self::Play => g == 0.0 || (i > 0 && displacement[i] != displacement[i - 1]),
+            // At one end of the gap.
+            Self::Play => (x[i] - displacement[i]).abs() >= g * (1.0 - 1e-9),
         };
         let velocity = v.iter().enumerate().map(|(i, v)| if moving(i) { *v } else { 0.0 }).collect();
         Some(Motion { displacement, velocity })

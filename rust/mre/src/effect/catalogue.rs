@@ -11,7 +11,7 @@ use super::degradation::{Degradation, Progress};
 use super::delay::TimeDelay;
 use super::drift::Drift;
 use super::end_stop::EndStop;
-use super::field_dependence::FieldDependence;
+use super::field_dependence::{FieldDependence, Of};
 use super::field_lag::FieldLag;
 use super::filter_lag::FilterLag;
 use super::fractional::Fractional;
@@ -179,6 +179,7 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &EndStop::Hertz,
     &Rig::Spring,
     &Rig::Viscoelastic,
+    &Rig::Joint,
     &Drift::Constant,
     &Drift::Linear,
     &Drift::Decaying,
@@ -205,11 +206,14 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &Remanence::PlaysSeen,
     &FieldDependence::Square,
     &FieldDependence::Saturating,
-    &FieldDependence::Scaled { whole: false },
-    &FieldDependence::Scaled { whole: true },
-    &FieldDependence::ScaledSaturating,
-    &OnSpring { law: &FieldDependence::Scaled { whole: false }, name: "spring scaled" },
-    &OnSpring { law: &FieldDependence::ScaledSaturating, name: "spring scaled, saturating" },
+    &FieldDependence::Scaled(Of::Stiffness),
+    &FieldDependence::Scaled(Of::Damping),
+    &FieldDependence::Scaled(Of::Whole),
+    &FieldDependence::ScaledSaturating(Of::Stiffness),
+    &FieldDependence::ScaledSaturating(Of::Damping),
+    &FieldDependence::ScaledSaturating(Of::Whole),
+    &OnSpring { law: &FieldDependence::Scaled(Of::Stiffness), name: "spring scaled" },
+    &OnSpring { law: &FieldDependence::ScaledSaturating(Of::Stiffness), name: "spring scaled, saturating" },
 ];
 
 /// The law of this name of an effect.

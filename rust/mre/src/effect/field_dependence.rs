@@ -2,7 +2,7 @@
 //!
 //! | symbol | meaning | unit | range |
 //! |---|---|---|---|
-//! | s | share that is lost in the middle of the span of the current, or by saturation (negative: gained) | - | -3 to 0.95 |
+//! | s | share that is lost in the middle of the span of the current, or by saturation (negative: gained) | - | -6 to 0.95 |
 //! | `k_i`, `c_i`, `k_i3` | change of stiffness, damping and cubic stiffness | N/mm, N s/mm, N/mm^3 | any |
 //! | `I_s` | current of saturation | A | 10 % to 200 % of the span of the current |
 //!
@@ -21,13 +21,21 @@ pub(super) enum FieldDependence {
     Square,
     /// By saturation.
     Saturating,
-    /// All that stores energy and all hysteresis by one factor, or the whole force.
-    Scaled {
-        /// Damping as well.
-        whole: bool,
-    },
+    /// A part of the force by one factor.
+    Scaled(Of),
     /// The same by a factor that saturates.
-    ScaledSaturating,
+    ScaledSaturating(Of),
+}
+
+/// What is scaled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Of {
+    /// All that stores energy and all hysteresis.
+    Stiffness,
+    /// What is viscous.
+    Damping,
+    /// The whole force.
+    Whole,
 }
 
 /// What the parameters miss at every sample: a function of the current from 0 at its lowest to 1 at its highest.
@@ -54,14 +62,22 @@ impl Effect for FieldDependence {
                 equation: "F_q = (k_i x + c_i v + k_i3 x^3) q, q = tanh((I - I_low)/I_s) less its chord",
                 ..square
             },
-            Self::Scaled { whole } => About {
-                law: if *whole { "whole force scaled" } else { "stiffness scaled" },
+            Self::Scaled(of) => About {
+                law: match of {
+                    Of::Stiffness => "stiffness scaled",
+                    Of::Damping => "damping scaled",
+                    Of::Whole => "whole force scaled",
+                },
                 equation: "F -> F (1 - s q), q = 4 (I - I_low)(I_high - I)/(I_high - I_low)^2",
                 ..square
             },
-            Self::ScaledSaturating => About {
-                law: "stiffness scaled, saturating",
-                equation: "k -> k (1 - s tanh((I - I_low)/I_s))",
+            Self::ScaledSaturating(of) => About {
+                law: match of {
+                    Of::Stiffness => "stiffness scaled, saturating",
+                    Of::Damping => "damping scaled, saturating",
+                    Of::Whole => "whole force scaled, saturating",
+                },
+                equation: "F -> F (1 - s tanh((I - I_low)/I_s))",
                 ..square
             },
         }
@@ -76,19 +92,19 @@ impl Effect for FieldDependence {
             Self::Square | Self::Saturating => {
                 vec![signed("k_i", "N/mm"), signed("c_i", "N s/mm"), signed("k_i3", "N/mm^3")]
             }
-            Self::Scaled { .. } | Self::ScaledSaturating => Vec::new(),
+            Self::Scaled(_) | Self::ScaledSaturating(_) => Vec::new(),
         }
     }
 
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
         let span = sizes.current_span();
         let saturation = order_within("I_s", "A", 0.1 * span, 2.0 * span);
-        let share = within("s", "", -3.0, 0.95);
+        let share = within("s", "", -6.0, 0.95);
         match self {
             Self::Square => Vec::new(),
             Self::Saturating => vec![saturation],
-            Self::Scaled { .. } => vec![share],
-            Self::ScaledSaturating => vec![share, saturation],
+            Self::Scaled(_) => vec![share],
+            Self::ScaledSaturating(_) => vec![share, saturation],
         }
     }
 
@@ -98,8 +114,8 @@ impl Effect for FieldDependence {
             Self::Saturating => {
                 [0.2, 0.5, 1.2].iter().map(|share| vec![share * sizes.current_span()]).collect()
             }
-            Self::Scaled { .. } => vec![vec![-0.2], vec![0.2]],
-            Self::ScaledSaturating => {
+            Self::Scaled(_) => vec![vec![-0.2], vec![0.2]],
+            Self::ScaledSaturating(_) => {
                 [0.2, 0.5, 1.2].iter().map(|share| vec![-0.2, share * sizes.current_span()]).collect()
             }
         }
@@ -113,7 +129,7 @@ impl Effect for FieldDependence {
                 let ratio = span / shape[0];
                 departure(scene, |u| (u * ratio).tanh() - u * ratio.tanh())
             }
-            Self::Scaled { .. } | Self::ScaledSaturating => return Vec::new(),
+            Self::Scaled(_) | Self::ScaledSaturating(_) => return Vec::new(),
         };
         let mut columns = following(scene, &q);
         columns.push(q.iter().zip(scene.displacement).map(|(q, x)| q * x * x * x).collect());
@@ -122,11 +138,12 @@ impl Effect for FieldDependence {
 
     fn factors(&self, scene: &Scene, shape: &[f64]) -> Option<Factors> {
         let ratio = |saturation: f64| scene.sizes.current_span() / saturation;
-        let (q, whole) = match self {
-            Self::Scaled { whole } => (departure(scene, |u| 4.0 * u * (1.0 - u)), *whole),
-            Self::ScaledSaturating => (departure(scene, |u| (u * ratio(shape[1])).tanh()), false),
+        let (q, of) = match self {
+            Self::Scaled(of) => (departure(scene, |u| 4.0 * u * (1.0 - u)), of),
+            Self::ScaledSaturating(of) => (departure(scene, |u| (u * ratio(shape[1])).tanh()), of),
             Self::Square | Self::Saturating => return None,
         };
-        Some(Factors::losing(shape[0], &q, whole))
+        let factors = Factors::losing(shape[0], &q, *of == Of::Whole);
+        Some(if *of == Of::Damping { factors.of_damping() } else { factors })
     }
 }

@@ -2,8 +2,8 @@
 //!
 //! | symbol | meaning | unit | range |
 //! |---|---|---|---|
-//! | `tau_i` | time constant | s | 0.5 ms to 2 s |
-//! | `tau_u`, `tau_d` | time constants of rise and fall | s | 0.5 ms to 2 s |
+//! | `tau_i` | time constant | s | 0.02 ms to 2 s |
+//! | `tau_u`, `tau_d` | time constants of rise and fall | s | 0.02 ms to 2 s |
 //!
 //! The field is that of the first current at the start.
 //! Reference: Spencer, Dyke, Sain and Carlson, J. Eng. Mech. 123 (1997) 230 (first-order filter);
@@ -56,7 +56,7 @@ impl Effect for FieldLag {
     }
 
     fn shape(&self, _: &Sizes) -> Vec<Parameter> {
-        let tau = |name| order_within(name, "s", 5e-4, 2.0);
+        let tau = |name| order_within(name, "s", 2e-5, 2.0);
         match self {
             Self::One | Self::Twice => vec![tau("tau_i")],
             Self::RiseAndFall => vec![tau("tau_u"), tau("tau_d")],
@@ -65,7 +65,9 @@ impl Effect for FieldLag {
 
     fn starts(&self, _: &Sizes) -> Vec<Vec<f64>> {
         match self {
-            Self::One | Self::Twice => vec![vec![0.003], vec![0.01], vec![0.05], vec![0.2], vec![0.8]],
+            Self::One | Self::Twice => {
+                vec![vec![5e-4], vec![0.003], vec![0.01], vec![0.05], vec![0.2], vec![0.8]]
+            }
             Self::RiseAndFall => vec![vec![0.02, 0.1], vec![0.1, 0.02], vec![0.1, 0.5], vec![0.5, 0.1]],
         }
     }

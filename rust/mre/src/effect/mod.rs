@@ -100,6 +100,12 @@ impl Factors {
     fn losing(share: f64, state: &[f64], whole: bool) -> Self {
         Self::kept(state.iter().map(|z| 1.0 - share * z).collect(), whole)
     }
+
+    /// The same on the viscous terms alone.
+    fn of_damping(self) -> Self {
+        let stiffness = vec![1.0; self.stiffness.len()];
+        Self { damping: Some(self.stiffness), stiffness, hysteretic: false }
+    }
 }
 
 /// Displacement in mm and velocity in mm/s that the base model sees.

@@ -2,7 +2,8 @@
 //! true force.
 //!
 //! No effect of the catalogue, but a part of the measurement: the first terms of the saw tooth's Fourier
-//! series (Widrow 1956), which noise within a step dampens, with free coefficients.
+//! series (Widrow 1956), which noise within a step dampens, with free coefficients. Its place follows from the force
+//! of the whole device: an effect of some steps shifts it by as many teeth.
 
 use super::{About, Effect, Scene, Sizes, signed};
 use crate::parameter::Parameter;
@@ -12,7 +13,7 @@ const FINEST: f64 = 1e-4;
 /// Steps are multiples of the lattice to this share of it: files round.
 const TOLERANCE: f64 = 0.02;
 
-/// Saw tooth of the force of the base model.
+/// Saw tooth of the force of the device with its effects.
 #[derive(Debug, Clone, Copy)]
 pub struct Quantisation;
 
@@ -55,12 +56,16 @@ impl Effect for Quantisation {
     fn columns(&self, scene: &Scene, _: &[f64]) -> Vec<Vec<f64>> {
         let Some(step) = scene.sizes.quantum else { return Vec::new() };
         let wave = |k: f64, f: fn(f64) -> f64| {
-            scene.force.iter().map(|force| f(std::f64::consts::TAU * k * force / step)).collect()
+            scene.whole.iter().map(|force| f(std::f64::consts::TAU * k * force / step)).collect()
         };
         vec![wave(1.0, f64::sin), wave(1.0, f64::cos), wave(2.0, f64::sin), wave(2.0, f64::cos)]
     }
 
     fn of_the_measurement(&self) -> bool {
         true
+    }
+
+    fn flexibility(&self, _: &[f64]) -> Option<f64> {
+        Some(0.0)
     }
 }

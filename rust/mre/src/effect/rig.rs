@@ -6,10 +6,11 @@
 //! | `t_r` | retardation time of a rig that gives way slowly | s | two samples to half the longest recording |
 //!
 //! The force that bends the rig is that of the device, as far as it is known.
-//! Reference: a spring, or a Kelvin-Voigt element, in series.
+//! Reference: a spring, or a Kelvin-Voigt element, in series; a joint of rough or round surfaces (Johnson, Contact
+//! Mechanics, 1985) gives way by the power 2/3 of its force.
 //! Known limit: for a linear device it is part of k0 and c0.
 
-use super::operators::{lag, slope};
+use super::operators::{each, lag, slope};
 use super::{About, Effect, Motion, Scene, Sizes, order_within, within};
 use crate::parameter::Parameter;
 
@@ -20,6 +21,17 @@ pub(super) enum Rig {
     Spring,
     /// Slowly.
     Viscoelastic,
+    /// At once, less and less.
+    Joint,
+}
+
+/// Force over the largest at which a joint sits as if it had been loaded before: it has some preload.
+const PRELOAD: f64 = 1.0 / 33.0;
+
+/// What a joint gives way to under a force, as a force: the same at the largest.
+fn stiffening(force: f64, largest: f64) -> f64 {
+    let set = |force: f64| (1.0 + force / (PRELOAD * largest)).powf(2.0 / 3.0) - 1.0;
+    largest * set(force.abs()).copysign(force) / set(largest)
 }
 
 impl Effect for Rig {
@@ -39,6 +51,13 @@ impl Effect for Rig {
                 equation: "the device sees x - u, t_r du/dt + u = f_r F",
                 ..spring
             },
+            Self::Joint => About {
+                law: "joint in series",
+                plain: "a joint of the fixture gives way, so that the device moves less than was measured",
+                equation: "the device sees x - f_r F_m s(F/F_m), s(r) = sgn(r) ((1 + 33 |r|)^(2/3) - 1)/(34^(2/3) - 1)",
+                reference: "Johnson, Contact Mechanics, 1985",
+                ..spring
+            },
         }
     }
 
@@ -53,7 +72,7 @@ impl Effect for Rig {
     fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
         let flexible = 0.03 * sizes.displacement / sizes.force;
         match self {
-            Self::Spring => vec![vec![flexible]],
+            Self::Spring | Self::Joint => vec![vec![flexible]],
             Self::Viscoelastic => [0.003, 0.03, 0.2]
                 .iter()
                 .map(|share| vec![flexible, (share * sizes.duration).max(2.0 * sizes.step)])
@@ -66,11 +85,12 @@ impl Effect for Rig {
     }
 
     fn motion(&self, scene: &Scene, shape: &[f64]) -> Option<Motion> {
-        let slow = match self {
+        let other = match self {
             Self::Spring => None,
             Self::Viscoelastic => Some(lag(scene.time, scene.whole, shape[1], scene.whole[0])),
+            Self::Joint => Some(each(scene.whole, |force| stiffening(force, scene.sizes.force))),
         };
-        let force = slow.as_deref().unwrap_or(scene.whole);
+        let force = other.as_deref().unwrap_or(scene.whole);
         let less =
             |series: &[f64], by: &[f64]| series.iter().zip(by).map(|(a, b)| a - shape[0] * b).collect();
         Some(Motion {
