@@ -54,7 +54,10 @@ def missing_effects(raw: Raw, names: Sequence[str], force: float) -> tuple[Missi
     found = []
     for rank, effect in enumerate(raw["effects"]):
         inexact = rank == 0 and raw["approximate"]
-        shows = words.place(place_of(raw["where"][0], names)) if rank == 0 and raw["where"] else None
+        place = place_of(raw["where"][0], names) if rank == 0 and raw["where"] else None
+        # What goes on whatever moves has no harmonics of the drive.
+        still = effect["of_the_measurement"] and place is not None and place["kind"] == "harmonic"
+        shows = words.place(place) if place is not None and not still else None
         found.append(
             MissingEffect(
                 id=effect["id"],
