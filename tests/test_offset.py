@@ -32,7 +32,6 @@ def test_an_offset_beside_a_simulation_is_named_with_its_size(offset: float) -> 
     assert found.verdict == "missing_physics"
     assert found.fit.noise_rms == pytest.approx(NOISE, rel=0.1)
     assert found.fit.held_out_rms_after == pytest.approx(NOISE, rel=0.1)
-    assert "Hz" not in found.effects[0].statement
     sizes = [parameter.value for parameter in found.effects[0].parameters.values()]
     assert sizes == pytest.approx([offset] * len(sizes), rel=0.05)
 

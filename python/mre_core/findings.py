@@ -49,15 +49,21 @@ def effect_of(found: Raw) -> Effect:
     return Effect(found["id"], found["law"], {p["name"]: p["value"] for p in [*own, *found["shapes"]]})
 
 
+def _shows(effect: Raw, where: Sequence[Raw], names: Sequence[str]) -> str | None:
+    """Where the base model misses most, in words."""
+    places = (place_of(found, names) for found in where)
+    # What belongs to the recordings goes on whatever moves.
+    still = effect["of_the_measurement"]
+    told = (words.place(place) for place in places if not still or place["kind"] in ("time", "recording"))
+    return next(told, None)
+
+
 def missing_effects(raw: Raw, names: Sequence[str], force: float) -> tuple[MissingEffect, ...]:
     """Effects found, the most useful first. An inexact form is told of that one."""
     found = []
     for rank, effect in enumerate(raw["effects"]):
         inexact = rank == 0 and raw["approximate"]
-        place = place_of(raw["where"][0], names) if rank == 0 and raw["where"] else None
-        # What goes on whatever moves has no harmonics of the drive.
-        still = effect["of_the_measurement"] and place is not None and place["kind"] == "harmonic"
-        shows = words.place(place) if place is not None and not still else None
+        shows = _shows(effect, raw["where"], names) if rank == 0 else None
         found.append(
             MissingEffect(
                 id=effect["id"],

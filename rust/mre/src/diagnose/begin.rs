@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::candidates::noise_left;
+use super::candidates::{Candidate, fit, noise_left};
 use super::least_squares::{Data, Fitted, refine, refine_at_most};
 use super::monitor::Monitor;
 use super::noise::Noise;
@@ -69,8 +69,7 @@ pub(super) fn begin<'a>(
     let data = Data { noise: &noise, rows, monitor };
     let fitted = refine(&assembly, data, &coarse.unit);
     let force = assembly.base_force(&fitted.unit, &fitted.coefficients);
-    let assembly = assembly.referring_to(force);
-    let fitted = refine(&assembly, data, &fitted.unit);
+    let Candidate { assembly, fitted } = fit(assembly.referring_to(force), data, &fitted.unit);
     let noise = noise_left(&assembly, data, &fitted);
     Begun { assembly, fitted, noise }
 }

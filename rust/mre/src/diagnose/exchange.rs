@@ -20,16 +20,18 @@ impl<'a> Search<'_, 'a> {
     /// The same effects, each with the law that leaves least.
     pub(super) fn best_law(&self, named: Named<'a>) -> Option<Named<'a>> {
         self.monitor.begins(Stage::Laws);
+        let ids = self.ids(&named);
         let mut best = named;
-        for place in self.given()..best.assembly.effects().len() {
-            let known = best.assembly.effects()[place];
+        for id in ids {
+            let Some(place) = self.ids(&best).iter().position(|other| *other == id) else { continue };
+            let known = best.assembly.effects()[self.given() + place];
             let others = self.settings.laws.iter().copied().filter(|e| {
                 e.about().effect == known.about().effect
                     && e.about() != known.about()
                     && e.applies(best.assembly.campaign().sizes())
             });
             let data = self.data(&best.noise);
-            let without = self.drop(&best, place);
+            let without = self.drop(&best, self.given() + place);
             let tried = others
                 .collect::<Vec<_>>()
                 .into_par_iter()
@@ -37,7 +39,9 @@ impl<'a> Search<'_, 'a> {
                 .collect::<Vec<_>>();
             let better = self.better(&best.noise, &best.itself(), tried);
             if let Some(better) = self.monitor.whole(better)? {
-                let p_values = best.p_values.clone();
+                // The law comes last, and so does its p-value.
+                let mut p_values = best.p_values.clone();
+                p_values[place..].rotate_left(1);
                 best = self.look(better.assembly, &better.fitted.unit, &best.noise)?;
                 best.p_values = p_values;
             }
@@ -152,16 +156,16 @@ impl<'a> Search<'_, 'a> {
         &self,
         before: &Named<'a>,
         single: Named<'a>,
+        known: &str,
         second: &Candidate<'a>,
     ) -> Option<Named<'a>> {
         self.monitor.begins(Stage::Pairs);
         let data = self.data(&single.noise);
-        let known = single.itself().added();
         let mut firsts: Vec<Candidate> = Vec::new();
         for candidate in candidates(&before.assembly, data, &before.fitted.unit, &before.scores, REFITTED) {
             let id = candidate.added();
             let seen = firsts.iter().any(|first| first.added() == id);
-            if id != known && !seen && firsts.len() < FIRSTS {
+            if id != Some(known) && !seen && firsts.len() < FIRSTS {
                 firsts.push(candidate);
             }
         }

@@ -37,14 +37,39 @@ pub(super) fn judge<'a>(
     false_alarm: f64,
     monitor: &dyn Monitor,
 ) -> Judged<'a> {
+    let hummed = hum_alone(begun, &named, rows, monitor);
     let judged = alone(begun, named, rows, false_alarm, monitor);
-    match first {
-        Some(first) if judged.verdict == Verdict::Unexplained => {
-            let simpler = alone(begun, first, rows, false_alarm, monitor);
-            if simpler.verdict == Verdict::Unexplained { judged } else { simpler }
+    // Where names are not to be trusted, that of a hum still is.
+    for simpler in first.into_iter().chain(hummed) {
+        if judged.verdict != Verdict::Unexplained {
+            break;
         }
-        _ => judged,
+        let simpler = alone(begun, simpler, rows, false_alarm, monitor);
+        if simpler.verdict != Verdict::Unexplained {
+            return simpler;
+        }
     }
+    judged
+}
+
+/// The base with the hum that is named beside other effects.
+fn hum_alone<'a>(
+    begun: &Begun<'a>,
+    named: &Named<'a>,
+    rows: &[Rows],
+    monitor: &dyn Monitor,
+) -> Option<Named<'a>> {
+    let given = begun.assembly.effects().len();
+    let added = &named.assembly.effects()[given..];
+    let hums = added.iter().filter(|e| !e.follows_the_motion()).count();
+    if hums == 0 || hums == added.len() {
+        return None;
+    }
+    let data = Data { noise: &named.noise, rows, monitor };
+    let Candidate { assembly, fitted } = beside_the_hum(begun, named, data)?;
+    let own = added.iter().zip(&named.p_values).filter(|(e, _)| !e.follows_the_motion());
+    let p_values = own.map(|(_, p)| *p).collect();
+    Some(Named { assembly, fitted, next: Some(named.itself()), p_values, ..named.clone() })
 }
 
 fn alone<'a>(
@@ -70,8 +95,8 @@ fn alone<'a>(
     let before = hummed.as_ref().map_or(&base, |c| &c.fitted);
     let explained = (before.left - named.fitted.left).max(0.0);
     let change = rms_change(&named, data);
-    let given = hummed.as_ref().map_or(&begun.assembly, |c| &c.assembly).effects().len();
-    let effects = named.assembly.effects().len() - given;
+    let hum = hummed.as_ref().map_or(0, |c| c.assembly.effects().len() - begun.assembly.effects().len());
+    let effects = named.assembly.effects().len() - begun.assembly.effects().len() - hum;
     let parameters = named.fitted.parameters() - before.parameters();
     let improvement = explained - parameters as f64 * (base.rows as f64).ln();
     // A drift has parameters in every recording, and even smooth forces have a slow part.
@@ -80,17 +105,16 @@ fn alone<'a>(
     let wandering = last.as_ref().map_or(Mismatch::NONE, Null::wandering);
     let tests = Tests { first, rest, smooth: of_rest.p_value, wandering, explained, change, surpassed };
     let evidence = Evidence::new(&tests, &named, begun.noise.hidden(), false_alarm);
-    let verdict = evidence.verdict(effects);
+    let verdict = evidence.verdict(effects, hum > 0);
     Judged { named, base, evidence, verdict }
 }
 
-/// The base with the hum that is named beside other effects: these are judged by what they explain themselves.
+/// The base with the hum that is named: other effects are judged by what they explain beside it.
 fn beside_the_hum<'a>(begun: &Begun<'a>, named: &Named<'a>, data: Data) -> Option<Candidate<'a>> {
     let given = begun.assembly.effects().len();
-    let (effects, count) = (named.assembly.effects(), named.assembly.effects().len());
-    let still = |place: usize| place < given || !effects[place].follows_the_motion();
-    let hum = (given..count).filter(|place| still(*place)).count();
-    (hum > 0 && hum < count - given).then(|| keeping(named, data, still))
+    let effects = named.assembly.effects();
+    let hums = effects[given..].iter().any(|e| !e.follows_the_motion());
+    hums.then(|| keeping(named, data, |place| place < given || !effects[place].follows_the_motion()))
 }
 
 /// Effects refer to the force of the base as it is in the joint model, as a simulation will have it.

@@ -2,7 +2,8 @@
 //!
 //! The law with the lowest whitened BIC enters if its effect's p-value passes Holm's threshold (Holm 1979).
 //! Then other laws of the effects already named are tried in their place, and the noise is estimated anew
-//! from the best model so far. A further effect enters only if it also helps on data that took no part. Pairs
+//! from the best model so far. A further effect enters only if it also helps on data that took no part, beside a hum
+//! alone without that. Pairs
 //! are searched from several firsts, because the best single effect may be neither of two. An effect that a later one
 //! makes unnecessary is replaced by it; at the end each of several gives way to one that is better beside the
 //! others, and one that the others make unnecessary leaves.
@@ -129,10 +130,11 @@ impl<'a> Search<'_, 'a> {
 
     /// The best first effect with its best law, and by how much it lowers the held-out rms, N.
     fn best_of_first(&self, before: &Named<'a>, single: &Named<'a>) -> Option<(Named<'a>, f64)> {
+        let known = single.assembly.effects().last()?.about().effect;
         let mut best = self.best_law(single.clone())?;
         let second = best.next.clone().filter(|second| self.significant(&best, second).is_some());
         if let Some(second) = second {
-            best = self.best_first(before, best, &second)?;
+            best = self.best_first(before, best, known, &second)?;
         }
         let Improvement { held_out, trained, .. } = self.improvement(before, &best)?;
         // A base that fails plainly where it is carried too far is no measure of the first effect.
@@ -166,8 +168,13 @@ impl<'a> Search<'_, 'a> {
         named.assembly.effects().len() - self.given()
     }
 
+    /// Their ids.
+    pub(super) fn ids(&self, named: &Named) -> Vec<&'static str> {
+        named.assembly.effects()[self.given()..].iter().map(|e| e.about().effect).collect()
+    }
+
     /// Number of these that follow the motion.
-    fn moved(&self, named: &Named) -> usize {
+    pub(super) fn moved(&self, named: &Named) -> usize {
         named.assembly.effects()[self.given()..].iter().filter(|e| e.follows_the_motion()).count()
     }
 

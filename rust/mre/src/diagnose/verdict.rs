@@ -105,11 +105,14 @@ impl Evidence {
         }
     }
 
-    pub(super) fn verdict(&self, effects: usize) -> Verdict {
+    /// The verdict on so many effects that follow the motion, and on a hum.
+    pub(super) fn verdict(&self, effects: usize, hum: bool) -> Verdict {
         let several = usize::from(effects > 1);
         let (trusted, form) =
             if self.plain { (TRUSTED[0], PLAIN_FORM) } else { (TRUSTED[several], FORM[several]) };
         match (effects, self.approximate()) {
+            (0, false) if hum => Verdict::MissingPhysics,
+            (0, true) if hum => Verdict::PartlyExplained,
             (0, false) => Verdict::Adequate,
             (0, true) => Verdict::Unexplained,
             _ if self.surpassed => Verdict::Unexplained,

@@ -65,7 +65,7 @@ impl<'a> Search<'_, 'a> {
         };
         let mut tried: Vec<_> = all.map(|c| (gain(c), c)).collect();
         tried.sort_by(|a, b| b.0.total_cmp(&a.0));
-        if self.found(here) > 0 {
+        if self.moved(here) > 0 {
             tried.retain(|(gain, _)| *gain > LEAST_OF_REST / BEST_LAW);
         }
         let best = tried.first().map_or(0.0, |(gain, _)| *gain);
@@ -88,7 +88,7 @@ impl<'a> Search<'_, 'a> {
         let beyond = |rms: f64| rms * rms - noise * noise;
         let whole = beyond(rest - held_out) < NOTHING * beyond(rest);
         let of_first = if whole { 0.0 } else { LEAST_OF_FIRST * by_first };
-        let follows = best.assembly.effects().last().is_some_and(|e| e.follows_the_motion());
+        let follows = next.assembly.effects().last().is_some_and(|e| e.follows_the_motion());
         let least = if follows { (LEAST_OF_NOISE * noise).max(of_first).max(of_rest) } else { 0.0 };
         (held_out >= least).then_some(best)
     }

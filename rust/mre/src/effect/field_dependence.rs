@@ -68,7 +68,11 @@ impl Effect for FieldDependence {
                     Of::Damping => "damping scaled",
                     Of::Whole => "whole force scaled",
                 },
-                equation: "F -> F (1 - s q), q = 4 (I - I_low)(I_high - I)/(I_high - I_low)^2",
+                equation: match of {
+                    Of::Stiffness => "k -> k (1 - s q), q = 4 (I - I_low)(I_high - I)/(I_high - I_low)^2",
+                    Of::Damping => "c -> c (1 - s q), q = 4 (I - I_low)(I_high - I)/(I_high - I_low)^2",
+                    Of::Whole => "F -> F (1 - s q), q = 4 (I - I_low)(I_high - I)/(I_high - I_low)^2",
+                },
                 ..square
             },
             Self::ScaledSaturating(of) => About {
@@ -77,7 +81,11 @@ impl Effect for FieldDependence {
                     Of::Damping => "damping scaled, saturating",
                     Of::Whole => "whole force scaled, saturating",
                 },
-                equation: "F -> F (1 - s tanh((I - I_low)/I_s))",
+                equation: match of {
+                    Of::Stiffness => "k -> k (1 - s tanh((I - I_low)/I_s))",
+                    Of::Damping => "c -> c (1 - s tanh((I - I_low)/I_s))",
+                    Of::Whole => "F -> F (1 - s tanh((I - I_low)/I_s))",
+                },
                 ..square
             },
         }

@@ -185,7 +185,7 @@ pub trait Effect: Send + Sync {
     }
 
     /// What the effect takes from the motion for each newton of the device with all its effects, mm/N. A fit is
-    /// then repeated until that force agrees with what the effect saw.
+    /// then repeated until that force agrees with what the effect saw. Zero: it only follows from that force.
     fn flexibility(&self, shape: &[f64]) -> Option<f64> {
         let _ = shape;
         None

@@ -4,6 +4,7 @@
 //! No effect of the catalogue, but a part of the measurement: the first terms of the saw tooth's Fourier
 //! series (Widrow 1956), which noise within a step dampens, with free coefficients. Its place follows from the force
 //! of the whole device: an effect of some steps shifts it by as many teeth.
+//! Known limit: so do a hum and a drift, which are not seen here.
 
 use super::{About, Effect, Scene, Sizes, signed};
 use crate::parameter::Parameter;
@@ -65,6 +66,7 @@ impl Effect for Quantisation {
         true
     }
 
+    // Takes nothing from the motion, but follows from the force.
     fn flexibility(&self, _: &[f64]) -> Option<f64> {
         Some(0.0)
     }

@@ -2,7 +2,7 @@
 //!
 //! | symbol | meaning | unit | range |
 //! |---|---|---|---|
-//! | `f_r` | flexibility of the rig, 1/`k_r` | mm/N | 0 to half the flexibility of the device |
+//! | `f_r` | flexibility of the rig, 1/`k_r`; of a joint at the largest force `F_m` | mm/N | 0 to half the flexibility of the device |
 //! | `t_r` | retardation time of a rig that gives way slowly | s | two samples to half the longest recording |
 //!
 //! The force that bends the rig is that of the device, as far as it is known.
@@ -53,6 +53,7 @@ impl Effect for Rig {
             },
             Self::Joint => About {
                 law: "joint in series",
+                limit: "F_m is the largest force measured; for a linear device it is part of k0 and c0",
                 plain: "a joint of the fixture gives way, so that the device moves less than was measured",
                 equation: "the device sees x - f_r F_m s(F/F_m), s(r) = sgn(r) ((1 + 33 |r|)^(2/3) - 1)/(34^(2/3) - 1)",
                 reference: "Johnson, Contact Mechanics, 1985",
