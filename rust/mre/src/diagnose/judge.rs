@@ -2,6 +2,7 @@
 
 use super::begin::Begun;
 use super::candidates::{Candidate, fit};
+use super::exchange::CLEAR;
 use super::least_squares::{Data, Fitted, refine};
 use super::missing::{Generic, Mismatch};
 use super::monitor::Monitor;
@@ -13,9 +14,6 @@ use super::search::{Named, rms};
 use super::unnamed::{self, Unnamed};
 use super::verdict::{Evidence, Tests, Verdict};
 use crate::assembly::Assembly;
-
-/// Advantage in the criterion that counts.
-const CLEAR: f64 = 10.0;
 
 /// A model with what speaks for and against it.
 pub(super) struct Judged<'a> {

@@ -9,9 +9,9 @@
 //! others, and one that the others make unnecessary leaves.
 
 use super::begin::Begun;
-use super::candidates::{Candidate, by_effect, candidates, fit, noise_left, residuals, scores};
+use super::candidates::{Candidate, residuals};
 use super::least_squares::{Data, Fitted};
-use super::monitor::{Monitor, Stage};
+use super::monitor::Monitor;
 use super::noise::Noise;
 use super::normal::Rows;
 use super::screen::Score;
@@ -30,7 +30,7 @@ pub(super) const FEW: usize = 3;
 /// alarms.
 pub(super) const WAYS: f64 = 2.0;
 /// Effects after the best that are tried where that fails.
-const LATER: usize = 3;
+pub(super) const LATER: usize = 3;
 /// A model with its fit and the noise that it leaves.
 #[derive(Clone)]
 pub struct Named<'a> {
@@ -176,57 +176,6 @@ impl<'a> Search<'_, 'a> {
     /// Number of these that follow the motion.
     pub(super) fn moved(&self, named: &Named) -> usize {
         named.assembly.effects()[self.given()..].iter().filter(|e| e.follows_the_motion()).count()
-    }
-
-    /// Score the catalogue beside a model, with the noise that the best of a few candidates leaves.
-    pub(super) fn look(&self, assembly: Assembly<'a>, unit: &[f64], noise: &Noise) -> Option<Named<'a>> {
-        let beside = Stage::Catalogue(assembly.effects().len() - self.given());
-        let data = self.data(noise);
-        let (assembly, noise, first) = self.monitor.stage(beside, || {
-            let Candidate { assembly, fitted: first } = fit(assembly, data, unit);
-            let found = scores(&assembly, data, &first.unit, self.settings);
-            let noise = match candidates(&assembly, data, &first.unit, &found, FEW).first() {
-                Some(best) => noise_left(&best.assembly, data, &best.fitted),
-                None => noise_left(&assembly, data, &first),
-            };
-            (assembly, noise, first)
-        })?;
-        let data = self.data(&noise);
-        let Candidate { assembly, fitted } = fit(assembly, data, &first.unit);
-        let found = scores(&assembly, data, &fitted.unit, self.settings);
-        let mut tried = self
-            .monitor
-            .stage(Stage::Candidates, || candidates(&assembly, data, &fitted.unit, &found, REFITTED))?
-            .into_iter();
-        let next = tried.next();
-        let mut later: Vec<Candidate> = Vec::new();
-        // Likelihoods of a noise that is not known may put an effect first that fails on other data.
-        for candidate in tried.filter(|_| noise.hidden()) {
-            let id = candidate.added();
-            if later.len() < LATER && later.iter().chain(&next).all(|c| c.added() != id) {
-                later.push(candidate);
-            }
-        }
-        Some(Named { assembly, fitted, noise, scores: found, next, later, p_values: Vec::new() })
-    }
-
-    /// The p-value of a candidate, if its effect passes Holm's threshold at half of the false alarms: the smallest
-    /// p-value against the number of effects does, or the candidate's own does in its turn.
-    pub(super) fn significant(&self, here: &Named<'a>, next: &Candidate<'a>) -> Option<f64> {
-        let id = next.added()?;
-        let mut effects = by_effect(&here.scores);
-        effects.sort_by(|a, b| a.1.total_cmp(&b.1));
-        let mut adjusted: f64 = 0.0;
-        for (turn, (effect, p)) in effects.iter().enumerate() {
-            adjusted = adjusted.max(WAYS * p * (effects.len() - turn) as f64);
-            if adjusted > self.settings.false_alarm {
-                return None;
-            }
-            if *effect == id {
-                return Some(adjusted);
-            }
-        }
-        None
     }
 }
 
