@@ -87,7 +87,8 @@ def of_swept(force: Callable[[Array, Array], Array], hum: float) -> Diagnosis:
     "force", [lambda x, v: 1.0 * np.sin(2 * np.pi * 3 * x / 8), lambda x, v: 1.5 * x**2 * v / 900]
 )
 def test_a_hum_keeps_its_name_beside_physics_of_no_catalogue(force: Callable[[Array, Array], Array]) -> None:
-    assert (of_swept(force, 0.0).verdict, of_swept(force, 0.0).effects) == ("unexplained", ())
+    calm = of_swept(force, 0.0)
+    assert (calm.verdict, calm.effects) == ("unexplained", ())
     found = of_swept(force, 3.0)
     assert (found.verdict, [e.id for e in found.effects]) == ("partly_explained", [MAINS])
 

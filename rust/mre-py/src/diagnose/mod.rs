@@ -5,7 +5,6 @@ mod describe;
 use describe::After;
 use mre::assembly::{Base, Campaign, Kept};
 use mre::diagnose::{self, KINDS, Limits, Monitor, Settings, Stage};
-use mre::effect::Sizes;
 use mre::error::{Error, Result};
 use numpy::PyArray1;
 use pyo3::exceptions::PyKeyboardInterrupt;
@@ -68,13 +67,12 @@ pub(crate) fn diagnose_recordings<'py>(
         |link| -> Result<Option<(String, Histories, Histories)>> {
             let mut campaign = Campaign::new(recordings.clone())?;
             if let Some(sizes) = &sizes {
-                // Effects of one model have one set of sizes; in what steps a force is measured is each campaign's own.
-                let quantum = campaign.sizes().quantum;
-                campaign = campaign.sized(Sizes { quantum, ..sizes.clone() });
+                // Effects of one model have one set of sizes.
+                campaign = campaign.sized(sizes);
             }
             if held.is_some() || given.is_some() {
                 let sizes = campaign.sizes().clone().of_one_device();
-                campaign = campaign.sized(sizes);
+                campaign = campaign.sized(&sizes);
             }
             let base = match (held, given) {
                 (Some(device), _) => Base::Held(match sizes {

@@ -77,10 +77,11 @@ impl Campaign {
         &self.doubts
     }
 
-    /// The same with other sizes.
+    /// The same with other sizes; in what steps the force is measured stays its own.
     #[must_use]
-    pub fn sized(self, sizes: Sizes) -> Self {
-        Self { sizes, ..self }
+    pub fn sized(self, sizes: &Sizes) -> Self {
+        let quantum = self.sizes.quantum;
+        Self { sizes: Sizes { quantum, ..sizes.clone() }, ..self }
     }
 
     /// The recordings.

@@ -18,10 +18,9 @@ impl<'a> Search<'_, 'a> {
     /// The same effects, each with the law that leaves least.
     pub(super) fn best_law(&self, named: Named<'a>) -> Option<Named<'a>> {
         self.monitor.begins(Stage::Laws);
-        let ids = self.ids(&named);
+        let mut place = 0;
         let mut best = named;
-        for id in ids {
-            let Some(place) = self.ids(&best).iter().position(|other| *other == id) else { continue };
+        for _ in 0..self.found(&best) {
             let known = best.assembly.effects()[self.given() + place];
             let others = self.settings.laws.iter().copied().filter(|e| {
                 e.about().effect == known.about().effect
@@ -37,11 +36,13 @@ impl<'a> Search<'_, 'a> {
                 .collect::<Vec<_>>();
             let better = self.better(&best.noise, &best.itself(), tried);
             if let Some(better) = self.monitor.whole(better)? {
-                // The law comes last, and so does its p-value.
+                // The law comes last, and so does its p-value; the next effect takes its place.
                 let mut p_values = best.p_values.clone();
                 p_values[place..].rotate_left(1);
                 best = self.look(better.assembly, &better.fitted.unit, &best.noise)?;
                 best.p_values = p_values;
+            } else {
+                place += 1;
             }
         }
         Some(best)

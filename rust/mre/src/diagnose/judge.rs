@@ -35,19 +35,14 @@ pub(super) fn judge<'a>(
     false_alarm: f64,
     monitor: &dyn Monitor,
 ) -> Judged<'a> {
-    let hummed = hum_alone(begun, &named, rows, monitor);
     let judged = alone(begun, named, rows, false_alarm, monitor);
-    // Where names are not to be trusted, that of a hum still is.
-    for simpler in first.into_iter().chain(hummed) {
-        if judged.verdict != Verdict::Unexplained {
-            break;
-        }
-        let simpler = alone(begun, simpler, rows, false_alarm, monitor);
-        if simpler.verdict != Verdict::Unexplained {
-            return simpler;
-        }
+    if judged.verdict != Verdict::Unexplained {
+        return judged;
     }
-    judged
+    // Where names are not to be trusted, that of a hum still is.
+    let simpler = first.into_iter().chain(hum_alone(begun, &judged.named, rows, monitor));
+    let mut tried = simpler.map(|simpler| alone(begun, simpler, rows, false_alarm, monitor));
+    tried.find(|simpler| simpler.verdict != Verdict::Unexplained).unwrap_or(judged)
 }
 
 /// The base with the hum that is named beside other effects.
@@ -57,14 +52,9 @@ fn hum_alone<'a>(
     rows: &[Rows],
     monitor: &dyn Monitor,
 ) -> Option<Named<'a>> {
-    let given = begun.assembly.effects().len();
-    let added = &named.assembly.effects()[given..];
-    let hums = added.iter().filter(|e| !e.follows_the_motion()).count();
-    if hums == 0 || hums == added.len() {
-        return None;
-    }
     let data = Data { noise: &named.noise, rows, monitor };
     let Candidate { assembly, fitted } = beside_the_hum(begun, named, data)?;
+    let added = &named.assembly.effects()[begun.assembly.effects().len()..];
     let own = added.iter().zip(&named.p_values).filter(|(e, _)| !e.follows_the_motion());
     let p_values = own.map(|(_, p)| *p).collect();
     Some(Named { assembly, fitted, next: Some(named.itself()), p_values, ..named.clone() })

@@ -2,9 +2,8 @@
 //!
 //! The law with the lowest whitened BIC enters if its effect's p-value passes Holm's threshold (Holm 1979).
 //! Then other laws of the effects already named are tried in their place, and the noise is estimated anew
-//! from the best model so far. A further effect enters only if it also helps on data that took no part, beside a hum
-//! alone without that. Pairs
-//! are searched from several firsts, because the best single effect may be neither of two. An effect that a later one
+//! from the best model so far. A further effect enters only if it also helps on data that took no part; beside a hum
+//! alone it need not. Pairs are searched from several firsts, because the best single effect may be neither of two. An effect that a later one
 //! makes unnecessary is replaced by it; at the end each of several gives way to one that is better beside the
 //! others, and one that the others make unnecessary leaves.
 
@@ -166,11 +165,6 @@ impl<'a> Search<'_, 'a> {
     /// Number of effects that were found.
     pub(super) fn found(&self, named: &Named) -> usize {
         named.assembly.effects().len() - self.given()
-    }
-
-    /// Their ids.
-    pub(super) fn ids(&self, named: &Named) -> Vec<&'static str> {
-        named.assembly.effects()[self.given()..].iter().map(|e| e.about().effect).collect()
     }
 
     /// Number of these that follow the motion.
