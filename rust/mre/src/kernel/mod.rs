@@ -22,6 +22,7 @@ pub(crate) mod relaxation;
 mod sinh;
 pub(crate) mod sinh_compressed;
 mod sinh_direct;
+mod sinh_series;
 mod total;
 pub(crate) mod triangle;
 

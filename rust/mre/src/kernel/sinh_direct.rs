@@ -2,6 +2,7 @@
 
 use super::dispatch::{self, Isa, for_every_isa};
 use super::elementary::{LARGEST, fma, sinh, sinh_lane};
+use super::sinh_series::{self, LONGEST};
 use super::total::total;
 use crate::recording::Recording;
 
@@ -9,13 +10,15 @@ use crate::recording::Recording;
 /// one round with the next by itself.
 const LANES: usize = 8;
 
-/// The scored samples of a recording, packed.
+/// The scored samples of a recording, packed. Displacements are scaled by a power of two so that the
+/// farthest is between 1/2 and 1: no power of it overflows.
 #[derive(Debug, Clone)]
 pub(crate) struct SinhDirect {
     displacement: Vec<f64>,
     velocity: Vec<f64>,
     force: Vec<f64>,
     farthest: f64,
+    scale: f64,
     isa: Isa,
 }
 
@@ -24,23 +27,30 @@ impl SinhDirect {
     pub(crate) fn new(recording: &Recording) -> Self {
         let scored = recording.scored();
         let force = recording.force().unwrap_or_default();
-        let displacement = recording.displacement()[scored.clone()].to_vec();
+        let displacement = &recording.displacement()[scored.clone()];
+        let farthest = displacement.iter().fold(0.0, |far: f64, x| x.abs().max(far));
+        let scale = power_of_two_above(farthest);
         Self {
-            farthest: displacement.iter().fold(0.0, |far, x| x.abs().max(far)),
+            displacement: displacement.iter().map(|x| x / scale).collect(),
             velocity: recording.velocity()[scored.clone()].to_vec(),
             force: force[scored].to_vec(),
-            displacement,
+            farthest: farthest / scale,
+            scale,
             isa: dispatch::best(),
         }
     }
 
     /// Sum of squared errors of `[c0, k0, alpha, beta, F0]`; infinite where sinh overflows.
     pub(crate) fn sum_of_squares(&self, x: &[f64]) -> f64 {
-        let candidate = [x[0], x[1], x[2], x[3], x[4]];
-        if candidate[3].abs() * self.farthest <= LARGEST {
-            sum(self.isa, &self.displacement, &self.velocity, &self.force, candidate)
+        let (c0, k0, alpha, beta, f0) = (x[0], x[1] * self.scale, x[2], x[3] * self.scale, x[4]);
+        let (x, v, f) = (&self.displacement[..], &self.velocity[..], &self.force[..]);
+        if let Some((mut odd, count)) = sinh_series::coefficients(alpha, beta, self.farthest) {
+            odd[0] += k0;
+            sum_of_odd(self.isa, x, v, f, c0, f0, &odd[..count])
+        } else if beta.abs() * self.farthest <= LARGEST {
+            sum(self.isa, x, v, f, [c0, k0, alpha, beta, f0])
         } else {
-            self.sum_near_overflow(candidate)
+            self.sum_near_overflow([c0, k0, alpha, beta, f0])
         }
     }
 
@@ -52,31 +62,93 @@ impl SinhDirect {
     }
 }
 
+/// The power of two next above a positive number; 1 for zero.
+fn power_of_two_above(number: f64) -> f64 {
+    if number > 0.0 { number.log2().floor().clamp(-1000.0, 1000.0).exp2() * 2.0 } else { 1.0 }
+}
+
 for_every_isa!(sum, sum_generic, (x: &[f64], v: &[f64], f: &[f64], candidate: [f64; 5]) -> f64);
+for_every_isa!(sum_of_odd, sum_of_odd_generic,
+    (x: &[f64], v: &[f64], f: &[f64], c0: f64, f0: f64, odd: &[f64]) -> f64);
 
 #[inline(always)]
-fn sum_generic<const FUSED: bool>(x: &[f64], v: &[f64], f: &[f64], candidate: [f64; 5]) -> f64 {
+fn sum_generic<const FUSED: bool>(
+    x: &[f64],
+    v: &[f64],
+    f: &[f64],
+    [c0, k0, alpha, beta, f0]: [f64; 5],
+) -> f64 {
+    sum_of_residuals::<FUSED>(x, v, f, |x, v, f| {
+        let rest = fma::<FUSED>(-k0, x, fma::<FUSED>(-c0, v, f - f0));
+        fma::<FUSED>(-alpha, sinh_lane::<FUSED>(beta * x), rest)
+    })
+}
+
+/// For `x (odd[0] + odd[1] x^2 + ...)` in place of `k0 x + alpha sinh(beta x)`.
+#[inline(always)]
+fn sum_of_odd_generic<const FUSED: bool>(
+    x: &[f64],
+    v: &[f64],
+    f: &[f64],
+    c0: f64,
+    f0: f64,
+    odd: &[f64],
+) -> f64 {
+    // The number of coefficients is known to the compiler in each branch: no loop inside the lanes.
+    macro_rules! by_count {
+        ($($count:literal),*) => {
+            match odd.len() {
+                $($count => with_count::<FUSED, $count>(x, v, f, c0, f0, odd),)*
+                _ => with_count::<FUSED, LONGEST>(x, v, f, c0, f0, odd),
+            }
+        };
+    }
+    by_count!(6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17)
+}
+
+#[inline(always)]
+fn with_count<const FUSED: bool, const COUNT: usize>(
+    x: &[f64],
+    v: &[f64],
+    f: &[f64],
+    c0: f64,
+    f0: f64,
+    odd: &[f64],
+) -> f64 {
+    let mut c = [0.0; COUNT];
+    c.copy_from_slice(&odd[..COUNT]);
+    sum_of_residuals::<FUSED>(x, v, f, |x, v, f| {
+        let q = x * x;
+        let mut p = c[COUNT - 1];
+        for i in (0..COUNT - 1).rev() {
+            p = fma::<FUSED>(p, q, c[i]);
+        }
+        fma::<FUSED>(-p, x, fma::<FUSED>(-c0, v, f - f0))
+    })
+}
+
+#[inline(always)]
+fn sum_of_residuals<const FUSED: bool>(
+    x: &[f64],
+    v: &[f64],
+    f: &[f64],
+    residual: impl Fn(f64, f64, f64) -> f64,
+) -> f64 {
     let ((x, x_rest), (v, v_rest), (f, f_rest)) =
         (x.as_chunks::<LANES>(), v.as_chunks::<LANES>(), f.as_chunks::<LANES>());
     let mut sums = [0.0; LANES];
     for ((x, v), f) in x.iter().zip(v).zip(f) {
         for l in 0..LANES {
-            let r = residual::<FUSED>(x[l], v[l], f[l], candidate);
+            let r = residual(x[l], v[l], f[l]);
             sums[l] = fma::<FUSED>(r, r, sums[l]);
         }
     }
     let mut rest = 0.0;
     for ((x, v), f) in x_rest.iter().zip(v_rest).zip(f_rest) {
-        let r = residual::<FUSED>(*x, *v, *f, candidate);
+        let r = residual(*x, *v, *f);
         rest = fma::<FUSED>(r, r, rest);
     }
     total(&mut sums) + rest
-}
-
-#[inline(always)]
-fn residual<const FUSED: bool>(x: f64, v: f64, f: f64, [c0, k0, alpha, beta, f0]: [f64; 5]) -> f64 {
-    let rest = fma::<FUSED>(-k0, x, fma::<FUSED>(-c0, v, f - f0));
-    fma::<FUSED>(-alpha, sinh_lane::<FUSED>(beta * x), rest)
 }
 
 #[cfg(test)]
@@ -100,7 +172,7 @@ mod tests {
     fn the_last_finite_values_are_finite() {
         let direct = SinhDirect::new(&example::recording());
         let at = |alpha: f64, argument: f64| {
-            direct.sum_of_squares(&[0.0, 0.0, alpha, argument / direct.farthest, 0.0])
+            direct.sum_of_squares(&[0.0, 0.0, alpha, argument / direct.farthest / direct.scale, 0.0])
         };
         // Both sides of the end of the lane version, and of the end of the range of numbers.
         let (below, above) = (at(1e-300, 699.999_999), at(1e-300, 700.000_001));
