@@ -139,3 +139,76 @@ void bouc_wen_fitness(size_t n, const double *restrict x, const double *restrict
         for (size_t l = 0; l < LANES && begin + l < count; l++) out[begin + l] = costs[l];
     }
 }
+
+/* Variable projection: v, x and 1 made orthonormal once; for each beta the column sinh(beta x) is what
+ * they leave of it. A grid, then golden sections about its best point. */
+typedef struct {
+    size_t n;
+    const double *x, *q, *rest; /* q: three columns; rest: what they leave of the force */
+    double squares;
+} Projection;
+
+static double projected(const Projection *p, double beta)
+{
+    size_t n = p->n;
+    const double *restrict x = p->x, *restrict q = p->q, *restrict rest = p->rest;
+    double a = 0.0, b = 0.0, c = 0.0, ss = 0.0, sf = 0.0;
+    for (size_t i = 0; i < n; i++) {
+        double s = sinh_polynomial(beta * x[i]);
+        a += s * q[i];
+        b += s * q[n + i];
+        c += s * q[2 * n + i];
+        ss += s * s;
+        sf += s * rest[i];
+    }
+    double left = ss - a * a - b * b - c * c;
+    return (p->squares - (left > 0.0 ? sf * sf / left : 0.0)) / (double)n;
+}
+
+/* Least mean squared error over beta in [low, high]; `work` has room for four columns. */
+double sinh_exact(size_t n, const double *x, const double *v, const double *f, double low, double high,
+                  double *work)
+{
+    const double ratio = 0.6180339887498949;
+    enum { GRID = 24 };
+    double *rest = work + 3 * n, costs[GRID];
+    for (size_t i = 0; i < n; i++) {
+        work[i] = v[i];
+        work[n + i] = x[i];
+        work[2 * n + i] = 1.0;
+        rest[i] = f[i];
+    }
+    for (int k = 0; k < 4; k++) {
+        double *column = work + (size_t)k * n, square = 0.0;
+        for (int j = 0; j < k; j++) {
+            const double *before = work + (size_t)j * n;
+            double dot = 0.0;
+            for (size_t i = 0; i < n; i++) dot += before[i] * column[i];
+            for (size_t i = 0; i < n; i++) column[i] -= dot * before[i];
+        }
+        if (k == 3) break;
+        for (size_t i = 0; i < n; i++) square += column[i] * column[i];
+        for (size_t i = 0; i < n; i++) column[i] /= sqrt(square);
+    }
+    Projection p = {n, x, work, rest, 0.0};
+    for (size_t i = 0; i < n; i++) p.squares += rest[i] * rest[i];
+    int best = 0;
+    for (int k = 0; k < GRID; k++) {
+        costs[k] = projected(&p, low + (high - low) * k / (GRID - 1));
+        if (costs[k] < costs[best]) best = k;
+    }
+    double width = (high - low) / (GRID - 1);
+    double left = fmax(low, low + width * (best - 1)), right = fmin(high, low + width * (best + 1));
+    double one = right - ratio * (right - left), two = left + ratio * (right - left);
+    double at_one = projected(&p, one), at_two = projected(&p, two);
+    while (right - left > 1e-7 * right) {
+        if (at_one < at_two) {
+            right = two, two = one, at_two = at_one;
+            one = right - ratio * (right - left), at_one = projected(&p, one);
+        } else {
+            left = one, one = two, at_one = at_two;
+            two = left + ratio * (right - left), at_two = projected(&p, two);
+        }
+    }
+    return fmin(fmin(at_one, at_two), costs[best]);
+}

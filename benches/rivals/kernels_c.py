@@ -36,8 +36,10 @@ def build(command: list[str]) -> ctypes.CDLL:
         *[SIZE, *[POINTER] * 3, PLACES, *[POINTER] * 3],
         *[SIZE, *[POINTER] * 3],
     ]
+    kernels.sinh_exact.argtypes = [*series, ctypes.c_double, ctypes.c_double, POINTER]
     for function in (kernels.sinh_fitness, kernels.bouc_wen_fitness):
         function.restype = None
+    kernels.sinh_exact.restype = ctypes.c_double
     return kernels
 
 
@@ -67,3 +69,10 @@ def bouc_wen(kernels: ctypes.CDLL, case: Case) -> Kernel:
         return out
 
     return fitness
+
+
+def exact(kernels: ctypes.CDLL, case: Case) -> float:
+    """Least mean squared error over beta in its bounds, the linear coefficients free: N^2."""
+    work = np.empty(4 * len(case.x))
+    bounds = case.problem.lower[3], case.problem.upper[3]
+    return float(kernels.sinh_exact(len(case.x), case.x, case.v, case.f, *bounds, work))

@@ -1,5 +1,6 @@
 """Optimisers side by side: time, evaluations, and how far from the best known optimum they stop."""
 
+import ctypes
 import math
 import os
 import statistics
@@ -106,6 +107,8 @@ def others(case: Case, effort: Effort, rivals: Rivals) -> Iterator[Contestant]:
         single = {"Numba, single": kernels_numba.bouc_wen(case)["scalar, fastmath"]}
     if case.model == "sinh" and rivals.has("scipy"):
         yield projection(case)
+    if case.model == "sinh" and rivals.c is not None:
+        yield projection_in_c(case, rivals.c)
     for optimizers, kernels in ((BATCHED, batched), (SINGLE, single)):
         for name, (module, optimizer) in optimizers.items():
             if rivals.has(module):
@@ -123,6 +126,18 @@ def projection(case: Case) -> Contestant:
         return Outcome(time.perf_counter() - start, None, found, False)
 
     return Contestant("SciPy lsq_linear in minimize_scalar", "NumPy", 1, run)
+
+
+def projection_in_c(case: Case, kernels: ctypes.CDLL) -> Contestant:
+    """The same in C: linear coefficients without bounds, a grid of beta and golden sections."""
+    import kernels_c
+
+    def run(_seed: int) -> Outcome:
+        start = time.perf_counter()
+        found = kernels_c.exact(kernels, case)
+        return Outcome(time.perf_counter() - start, None, found, False)
+
+    return Contestant("C, golden sections", "C", 1, run)
 
 
 def table(case: Case, effort: Effort, rivals: Rivals) -> Iterator[str]:

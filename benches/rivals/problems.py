@@ -108,15 +108,15 @@ def _logarithm(values: Array, where: NDArray[np.intp]) -> Array:
     return result
 
 
-def case(model: str, bounds: dict[str, tuple[float, float]] | None = None) -> Case:
-    """1,000 samples of a 4 mm, 1 Hz test with 1 % noise on the force, and the default box."""
-    time = np.arange(SAMPLES) / RATE
+def case(model: str, bounds: dict[str, tuple[float, float]] | None = None, samples: int = SAMPLES) -> Case:
+    """A 4 mm, 1 Hz test with 1 % noise on the force, and the default box."""
+    time = np.arange(samples) / RATE
     turn = 2 * np.pi
     x = CONDITION.amplitude * np.sin(turn * time)
     v = CONDITION.amplitude * turn * np.cos(turn * time)
-    clean = mre_core.Recording(time, x, np.zeros(SAMPLES), velocity=v)
+    clean = mre_core.Recording(time, x, np.zeros(samples), velocity=v)
     truth = mre_core.Model(model, (mre_core.Level(None, TRUTH[model]),))
     f = mre_core.simulate(truth, clean)
-    f = f + np.random.default_rng(1).normal(0, NOISE * float(abs(f).max()), SAMPLES)
+    f = f + np.random.default_rng(1).normal(0, NOISE * float(abs(f).max()), samples)
     recording = mre_core.Recording(time, x, f, velocity=v, current=CONDITION.current, name=CONDITION.name)
     return Case(mre_core.Problem(recording, model, bounds), x, v, f)

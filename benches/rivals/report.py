@@ -5,6 +5,7 @@ from collections.abc import Iterator
 
 import kernel_race
 import optimizer_race
+import size_race
 from machine import Rivals, describe
 from optimizer_race import Effort
 from problems import SAMPLES, case
@@ -27,6 +28,12 @@ compresses the samples of `sinh` where the box of beta allows. No option turns t
 kernel that a box with beta up to 40 leaves.
 """
 SINH = "\n### sinh\n"
+SIZES = """
+### sinh, compressed, over the number of samples
+
+A longer recording is compressed once ("set-up"); an evaluation then costs the same. "Largest difference" is
+relative, to the direct kernel, over candidates of the whole box.
+"""
 BOX = "\n### Bouc-Wen, candidates from the whole box\n\nStiff ones take many sub-steps of RK4 a sample.\n"
 TRUTH = "\n### Bouc-Wen, candidates about the truth\n\nWithin 5 % of the box: mostly one step a sample.\n"
 OPTIMIZERS = """
@@ -62,6 +69,10 @@ def lines(quick: bool) -> Iterator[str]:
         yield from title.splitlines()
         yield ""
         yield from kernel_race.table(entries, rounds)
+        if title == SINH:
+            yield from SIZES.splitlines()
+            yield ""
+            yield from size_race.table(10_000 if quick else 10_000_000, rounds)
     yield from OPTIMIZERS.format(limit=effort.limit, spent=optimizer_race.SPENT).splitlines()
     for model in ("sinh", "bouc_wen"):
         yield ""
