@@ -42,6 +42,7 @@ def prepare(problem: Problem) -> Prepared:
     shown = options([problem.test], test_forces, [middle], count, peak)
     rest, jacobian = left_over(problem.train, base)
     scale = np.linalg.norm(jacobian, axis=0)
+    scale[scale == 0] = 1.0  # a shape whose coefficient the fit put to nothing
     q, r = np.linalg.qr(jacobian / scale)
     stacked, names, groups = _stack(learnt)
     columns = stacked - q @ (q.T @ stacked)

@@ -12,7 +12,7 @@ from mre_core.trial.case import Case
 STRENGTHS = (3.0, 1.0, 0.5)
 """What the effect leaves of the refitted base, over the noise, rms."""
 WEAK = (0.25, 0.1, 0.05)
-EACH_OF_A_PAIR = 2.0
+EACH_OF_SEVERAL = 2.0
 NOISES = ("white", "ar60", "ar97")
 EVERY_NOISE = ("white", "ar60", "ar97", "ar995", "pink", "narrow", "mains", "student", "quantised")
 NOISE_SHARE = 0.01
@@ -74,7 +74,14 @@ def pairs(rng: np.random.Generator) -> Iterator[Trial]:
     """Two effects, each alone twice the noise."""
     for first in cycle(NAMED):
         second = str(rng.choice([name for name in NAMED if name != first]))
-        yield _trial(rng, (first, second), (laws_of(first)[0], laws_of(second)[0]), EACH_OF_A_PAIR)
+        yield _trial(rng, (first, second), (laws_of(first)[0], laws_of(second)[0]), EACH_OF_SEVERAL)
+
+
+def triples(rng: np.random.Generator) -> Iterator[Trial]:
+    """Three effects, each alone twice the noise."""
+    for first in cycle(NAMED):
+        ids = (first, *map(str, rng.choice([name for name in NAMED if name != first], 2, replace=False)))
+        yield _trial(rng, ids, tuple(laws_of(name)[0] for name in ids), EACH_OF_SEVERAL)
 
 
 def removed(rng: np.random.Generator) -> Iterator[Trial]:
@@ -130,7 +137,7 @@ def _crossed(strengths: tuple[float, ...]) -> Iterator[tuple[float, str]]:
 
 
 PLANS: dict[str, Callable[[np.random.Generator], Iterator[Trial]]] = {
-    plan.__name__: plan for plan in (singles, others, pairs, removed, unknown, nulls, weak, doubts)
+    plan.__name__: plan for plan in (singles, others, pairs, removed, unknown, nulls, weak, doubts, triples)
 }
 
 

@@ -171,6 +171,7 @@ TABLES: dict[str, Callable[..., str]] = {
     "singles": naming,
     "others": naming,
     "pairs": naming,
+    "triples": naming,
     "removed": admission,
     "unknown": admission,
     "nulls": nulls,
