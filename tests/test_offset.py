@@ -10,8 +10,8 @@ TRUE = {"c0": 0.4, "k0": 8.0, "alpha": 10.0, "beta": 0.3, "F0": 0.0}
 NOISE = 0.3
 
 
-def from_rest(offset: float = 0.0, *, slow: float = 0.0, seed: int = 1) -> list[Recording]:
-    """Four sines of the sinh model with a start ramp, under white noise and a slow one in N."""
+def from_rest(offset: float = 0.0, *, line: float = 0.0, slow: float = 0.0, seed: int = 1) -> list[Recording]:
+    """Four sines of the sinh model with a start ramp, under a line, white noise and a slow one in N."""
     recordings = []
     for i, (amplitude, frequency) in enumerate([(2, 0.5), (4, 1), (8, 2), (6, 3)]):
         random = np.random.default_rng([seed, i])
@@ -20,7 +20,9 @@ def from_rest(offset: float = 0.0, *, slow: float = 0.0, seed: int = 1) -> list[
         v = np.gradient(x, time, edge_order=2)
         device = 0.4 * v + 8 * x + 10 * np.sinh(0.3 * x)
         wander = lfilter([np.sqrt(1 - 0.995**2)], [1, -0.995], random.normal(size=4500))[3000:]
-        force = device + offset + slow * wander + NOISE * random.normal(size=len(time))
+        force = (
+            device + offset + line * time / time[-1] + slow * wander + NOISE * random.normal(size=len(time))
+        )
         recordings.append(Recording(time, x, force, velocity=v, simulated=device, name=f"r{i}"))
     return recordings
 
@@ -34,6 +36,16 @@ def test_an_offset_beside_a_simulation_is_named_with_its_size(offset: float) -> 
     assert found.fit.held_out_rms_after == pytest.approx(NOISE, rel=0.1)
     sizes = [parameter.value for parameter in found.effects[0].parameters.values()]
     assert sizes == pytest.approx([offset] * len(sizes), rel=0.05)
+
+
+@pytest.mark.parametrize(("offset", "line"), [(5.0, 10.0), (2.0, -3.0)])
+def test_an_offset_that_drifts_is_named_with_both_sizes(offset: float, line: float) -> None:
+    found = mre_core.diagnose(from_rest(offset, line=line), "simulated", seed=1)
+    assert [(effect.id, effect.law) for effect in found.effects] == [("force_drift", "linear from an offset")]
+    assert found.verdict == "missing_physics"
+    assert found.fit.noise_rms == pytest.approx(NOISE, rel=0.1)
+    sizes = [parameter.value for parameter in found.effects[0].parameters.values()]
+    assert sorted(sizes) == pytest.approx(sorted([offset] * 4 + [line] * 4), abs=0.1)
 
 
 def test_an_offset_of_kept_parameters_is_told_as_one_of_them_too() -> None:

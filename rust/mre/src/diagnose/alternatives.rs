@@ -1,7 +1,11 @@
 //! A or B: effects that the recordings cannot tell from one that was named.
 
-use super::candidates::{Candidate, candidates, scores};
+use rayon::prelude::*;
+
+use super::candidates::{Candidate, candidates, joint, scores};
 use super::least_squares::Data;
+use super::null::Null;
+use super::screen::Score;
 use super::search::{Named, REFITTED, Search};
 
 /// A rival that leaves less than this much more (in squared standard deviations, a parameter's price
@@ -9,7 +13,7 @@ use super::search::{Named, REFITTED, Search};
 const APART: f64 = 10.0;
 
 /// Models with another effect in the place of one that was named, which fit as well within the noise; with the
-/// ids of these effects.
+/// ids of these effects, of which some may come with several laws.
 pub(super) fn rivals<'a>(
     search: &Search<'_, 'a>,
     named: &Named<'a>,
@@ -18,18 +22,32 @@ pub(super) fn rivals<'a>(
 ) -> Vec<(&'static str, Candidate<'a>)> {
     let without = search.drop(named, place);
     let id = named.assembly.effects()[place].about().effect;
-    let scored = scores(&without.assembly, data, &without.fitted.unit, search.settings);
+    let unit = &without.fitted.unit;
+    let scored = scores(&without.assembly, data, unit, search.settings);
     let price = (named.fitted.rows as f64).ln();
     let parameters = named.fitted.coefficients.len() + named.fitted.unit.len();
     let own = named.fitted.left + price * parameters as f64;
-    let mut found: Vec<(&'static str, Candidate)> = Vec::new();
-    for candidate in candidates(&without.assembly, data, &without.fitted.unit, &scored, REFITTED) {
-        let Some(last) = candidate.assembly.effects().last() else { continue };
-        let rival = last.about().effect;
-        let known = found.iter().any(|(known, _)| *known == rival);
-        if rival != id && candidate.criterion() <= own + APART && !known {
-            found.push((rival, candidate));
-        }
-    }
+    let told = |candidate: Candidate<'a>| {
+        let rival = candidate.added().filter(|rival| *rival != id)?;
+        (candidate.criterion() <= own + APART).then_some((rival, candidate))
+    };
+    let best = candidates(&without.assembly, data, unit, &scored, REFITTED);
+    let mut found: Vec<(&'static str, Candidate)> = best.into_iter().filter_map(told).collect();
+    let Some(null) = Null::new(&without.assembly, data, unit) else { return found };
+    // The other laws of the same effects: one of them may be what no test tells from the effect named.
+    let law = |c: &Candidate| c.assembly.effects().last().map(|e| e.about().law);
+    let others: Vec<&Score> = scored
+        .iter()
+        .filter(|score| {
+            let about = score.effect.about();
+            let mut alike = found.iter().filter(|(rival, _)| *rival == about.effect).peekable();
+            alike.peek().is_some() && alike.all(|(_, c)| law(c) != Some(about.law))
+        })
+        .collect();
+    let others: Vec<Candidate> = others
+        .into_par_iter()
+        .map(|score| joint(&without.assembly, data, unit, score.effect, &null.held(score).shape))
+        .collect();
+    found.extend(others.into_iter().filter_map(told));
     found
 }

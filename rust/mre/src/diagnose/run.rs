@@ -120,7 +120,11 @@ fn effects<'a>(
         });
         let Some((before, rivals)) = told else { break };
         effect.held_out = Some(HeldOut { before, after: after.held_out_rms });
-        effect.rivals = rivals.iter().map(|(id, _)| *id).collect();
+        for (id, _) in &rivals {
+            if !effect.rivals.contains(id) {
+                effect.rivals.push(id);
+            }
+        }
         doubt.rivals.extend(rivals);
     }
     let before = |e: &Effect| e.held_out.map_or(0.0, |h| h.before);

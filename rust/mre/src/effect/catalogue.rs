@@ -182,6 +182,7 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &Rig::Joint,
     &Drift::Constant,
     &Drift::Linear,
+    &Drift::Offset,
     &Drift::Decaying,
     &Drift::Slow,
     &Clipping::Both,

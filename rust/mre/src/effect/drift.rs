@@ -2,7 +2,7 @@
 //!
 //! | symbol | meaning | unit | range |
 //! |---|---|---|---|
-//! | D, `D_k` | drift throughout, over the longest recording, in the end, or of a half cosine | N | any, in each recording |
+//! | D, `D_0`, `D_k` | drift throughout, over the longest recording, in the end, at first, or of a half cosine | N | any, in each recording |
 //! | `tau_d` | time over which it settles | s | 3 % to 200 % of the longest recording |
 //!
 //! Of the measurement, not of the device: a simulation leaves it out.
@@ -21,6 +21,8 @@ pub(super) enum Drift {
     Constant,
     /// In proportion to the time.
     Linear,
+    /// In proportion to the time, from a zero that is off.
+    Offset,
     /// Settling.
     Decaying,
     /// Three half cosines over the recording.
@@ -46,6 +48,9 @@ impl Effect for Drift {
                 ..linear
             },
             Self::Linear => linear,
+            Self::Offset => {
+                About { law: "linear from an offset", equation: "F_measured = F + D_0 + D t/T", ..linear }
+            }
             Self::Decaying => {
                 About { law: "settling", equation: "F_measured = F + D (1 - exp(-t/tau_d))", ..linear }
             }
@@ -68,6 +73,7 @@ impl Effect for Drift {
     fn coefficients(&self) -> Vec<Parameter> {
         match self {
             Self::Constant | Self::Linear | Self::Decaying => vec![signed("D", "N")],
+            Self::Offset => vec![signed("D_0", "N"), signed("D", "N")],
             Self::Slow => (1..=3).map(|k| signed(&format!("D_{k}"), "N")).collect(),
         }
     }
@@ -77,14 +83,14 @@ impl Effect for Drift {
             Self::Decaying => {
                 vec![order_within("tau_d", "s", 0.03 * sizes.duration, 2.0 * sizes.duration)]
             }
-            Self::Constant | Self::Linear | Self::Slow => Vec::new(),
+            Self::Constant | Self::Linear | Self::Offset | Self::Slow => Vec::new(),
         }
     }
 
     fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
         match self {
             Self::Decaying => [0.05, 0.15, 0.5].iter().map(|share| vec![share * sizes.duration]).collect(),
-            Self::Constant | Self::Linear | Self::Slow => vec![Vec::new()],
+            Self::Constant | Self::Linear | Self::Offset | Self::Slow => vec![Vec::new()],
         }
     }
 
@@ -94,6 +100,7 @@ impl Effect for Drift {
         match self {
             Self::Constant => vec![column(&|_| 1.0)],
             Self::Linear => vec![column(&|t| t / scene.sizes.duration)],
+            Self::Offset => vec![column(&|_| 1.0), column(&|t| t / scene.sizes.duration)],
             Self::Decaying => vec![column(&|t| -(-t / shape[0]).exp_m1())],
             Self::Slow => {
                 let turn = PI / scene.duration();

@@ -2,8 +2,8 @@
 //!
 //! | symbol | meaning | unit | range |
 //! |---|---|---|---|
-//! | T | time constant | s | 0.1 ms to 15 ms |
-//! | `f_c` | corner frequency of a Butterworth filter | Hz | 10 to 2000: slower is no filter of a measurement |
+//! | T | time constant | s | 0.1 ms to 50 ms |
+//! | `f_c` | corner frequency of a Butterworth filter | Hz | 3 to 2000 |
 //!
 //! Exact for the cubic spline through evenly spaced samples.
 //! Reference: Butterworth, Wireless Engineer 7 (1930) 536.
@@ -92,15 +92,15 @@ impl Effect for FilterLag {
 
     fn shape(&self, _: &Sizes) -> Vec<Parameter> {
         match self {
-            Self::Force | Self::Displacement => vec![order_within("T", "s", 1e-4, 0.015)],
-            Self::Butterworth => vec![order_within("f_c", "Hz", 10.0, 2000.0)],
+            Self::Force | Self::Displacement => vec![order_within("T", "s", 1e-4, 0.05)],
+            Self::Butterworth => vec![order_within("f_c", "Hz", 3.0, 2000.0)],
         }
     }
 
     fn starts(&self, _: &Sizes) -> Vec<Vec<f64>> {
         match self {
-            Self::Force | Self::Displacement => vec![vec![0.0005], vec![0.002], vec![0.008]],
-            Self::Butterworth => vec![vec![15.0], vec![40.0], vec![120.0]],
+            Self::Force | Self::Displacement => vec![vec![0.0005], vec![0.002], vec![0.008], vec![0.025]],
+            Self::Butterworth => vec![vec![6.0], vec![15.0], vec![40.0], vec![120.0]],
         }
     }
 

@@ -67,7 +67,8 @@ pub struct NextTest {
 
 /// What is in doubt.
 pub(super) struct Doubt<'a> {
-    /// Models that fit as well as the one named, by the effect that they put in place of one of its own.
+    /// Models that fit as well as the one named, by the effect that they put in place of one of its own, of
+    /// which some come with several laws.
     pub(super) rivals: Vec<(&'static str, Candidate<'a>)>,
     /// Ids of effects that the recordings would hide.
     pub(super) hidden: Vec<&'static str>,
@@ -135,7 +136,7 @@ fn chances(
     let price = (fitted.rows as f64).ln();
     let criterion = |left: f64, parameters: usize| left + price * parameters as f64;
     let truth = criterion(fitted.left, fitted.coefficients.len() + fitted.unit.len());
-    let mut found: Vec<(&'static str, f64)> = doubt
+    let told: Vec<Told> = doubt
         .rivals
         .iter()
         .map(|(id, rival)| {
@@ -144,9 +145,12 @@ fn chances(
             let against = criterion(other.left, other.coefficients.len() + other.unit.len()) - truth;
             // The evidence varies with the noise like a normal variable of this variance.
             let spread = 2.0 * against.max(1.0).sqrt();
-            (*id, 1.0 - normal_tail((against - APART) / spread))
+            let chance = 1.0 - normal_tail((against - APART) / spread);
+            let known = named.fitted.left + price * named.fitted.parameters() as f64;
+            Told { id, chance, odds: (0.5 * (known - rival.criterion())).exp() }
         })
         .collect();
+    let mut found = by_effect(&told);
     let null = Null::new(&own, data, &fitted.unit)?;
     let laws: Vec<&'static dyn Effect> =
         settings.laws.iter().copied().filter(|e| doubt.hidden.contains(&e.about().effect)).collect();
@@ -157,4 +161,48 @@ fn chances(
         doubt.hidden.iter().map(|id| (*id, if still.iter().any(|h| h.effect == *id) { 0.0 } else { 1.0 })),
     );
     Some(found)
+}
+
+/// A law that is in doubt, and what an excitation tells of it.
+struct Told {
+    id: &'static str,
+    /// That it is told from the model named, whichever of the two is true.
+    chance: f64,
+    /// That it is true, over those of the model named.
+    odds: f64,
+}
+
+/// Chance of each effect in doubt: the model named is true and rules out each of its laws, or one of these is true and
+/// rules out the model named.
+fn by_effect(told: &[Told]) -> Vec<(&'static str, f64)> {
+    let mut ids: Vec<&'static str> = Vec::new();
+    for law in told {
+        if !ids.contains(&law.id) {
+            ids.push(law.id);
+        }
+    }
+    let chance = |id| {
+        let laws = || told.iter().filter(move |law| law.id == id);
+        let all = laws().map(|law| law.chance).fold(1.0, f64::min);
+        let odds: f64 = laws().map(|law| law.odds).sum();
+        let each: f64 = laws().map(|law| law.odds * law.chance).sum();
+        (id, (all + each) / (1.0 + odds))
+    };
+    ids.into_iter().map(chance).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_effect_is_told_apart_with_all_of_its_laws() {
+        let law = |id, chance, odds| Told { id, chance, odds };
+        let told = [law("a", 0.9, 1.0), law("b", 1.0, 1.0), law("b", 0.0, 1.0)];
+        let found = by_effect(&told);
+        assert_eq!(found.iter().map(|(id, _)| *id).collect::<Vec<_>>(), ["a", "b"]);
+        assert!((found[0].1 - 0.9).abs() < 1e-12);
+        // Only where the first law of b is true, a test tells.
+        assert!((found[1].1 - 1.0 / 3.0).abs() < 1e-12);
+    }
 }
