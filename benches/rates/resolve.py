@@ -1,5 +1,6 @@
 """What the proposed test does to a doubt: recorded on the concealed truth, and diagnosed with the rest."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -20,8 +21,10 @@ class Resolved:
     before: frozenset[str]
     """What may be the effect: the name and what is not told from it; empty where none is given."""
     after: frozenset[str]
-    excitation: str | None
+    excitation: str | None = None
     """Kind of the proposed test; none where nothing is in doubt."""
+    expected: float = 0.0
+    """Chance that it tells all of them apart, as the tool said."""
 
     @property
     def doubted(self) -> bool:
@@ -38,9 +41,10 @@ def run(trial: Trial) -> Resolved:
     """Diagnose, record the proposed test, diagnose again."""
     before, proposal = _said(trial, ())
     if proposal is None or len(before) < 2:
-        return Resolved(trial, before, before, None)
+        return Resolved(trial, before, before)
     after, _ = _said(trial, (proposed(proposal, current=1.0),))
-    return Resolved(trial, before, after, str(proposal["excitation"]))
+    expected = math.prod(chance for id, chance in proposal["chances"].items() if id in before)
+    return Resolved(trial, before, after, str(proposal["excitation"]), expected)
 
 
 def proposed(proposal: Mapping[str, Any], current: float) -> Excitation:

@@ -144,13 +144,17 @@ def resolved(found: Sequence[Resolved]) -> str:
         (
             what,
             len(own),
+            f"{100 * sum(r.expected for r in own) / max(len(own), 1):.0f} %",
             Rate(sum(r.right for r in own), len(own)),
             sum(len(r.after) > 1 and set(r.trial.case.effects) <= r.after for r in own),
             sum(not set(r.trial.case.effects) <= r.after for r in own),
         )
         for what, own in groups.items()
     ]
-    head = ("proposed test", "in doubt before", "truth alone after", "still in doubt", "truth lost")
+    head = (
+        *("proposed test", "in doubt before", "the tool expects to resolve"),
+        *("truth alone after", "still in doubt", "truth lost"),
+    )
     left = Counter(
         f"{', '.join(r.trial.case.effects)}: {' or '.join(sorted(r.after)) or 'nothing'}"
         for r in doubted

@@ -24,9 +24,7 @@ pub(super) fn rivals<'a>(
     let id = named.assembly.effects()[place].about().effect;
     let unit = &without.fitted.unit;
     let scored = scores(&without.assembly, data, unit, search.settings);
-    let price = (named.fitted.rows as f64).ln();
-    let parameters = named.fitted.coefficients.len() + named.fitted.unit.len();
-    let own = named.fitted.left + price * parameters as f64;
+    let own = named.fitted.criterion();
     let told = |candidate: Candidate<'a>| {
         let rival = candidate.added().filter(|rival| *rival != id)?;
         (candidate.criterion() <= own + APART).then_some((rival, candidate))

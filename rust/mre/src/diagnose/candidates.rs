@@ -49,7 +49,7 @@ pub struct Candidate<'a> {
 impl Candidate<'_> {
     /// Whitened Bayesian information criterion, up to a constant.
     pub fn criterion(&self) -> f64 {
-        self.fitted.left + self.fitted.parameters() as f64 * (self.fitted.rows as f64).ln()
+        self.fitted.criterion()
     }
 
     /// Id of the last effect.

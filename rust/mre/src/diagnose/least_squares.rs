@@ -31,6 +31,11 @@ impl Fitted {
     pub(super) fn parameters(&self) -> usize {
         self.coefficients.len() + self.unit.len()
     }
+
+    /// Whitened Bayesian information criterion, up to a constant.
+    pub(super) fn criterion(&self) -> f64 {
+        self.left + self.parameters() as f64 * (self.rows as f64).ln()
+    }
 }
 
 /// What a fit is made on.

@@ -5,6 +5,7 @@
 //! that the recordings hide are tested for on the same, as in the diagnosis itself.
 
 mod excitation;
+mod told;
 mod world;
 
 use super::absorbed::{hidden_among, ids_of};
@@ -20,6 +21,7 @@ use super::search::Named;
 use super::settings::Settings;
 use crate::assembly::Base;
 use crate::effect::Effect;
+use told::{Told, by_effect};
 use world::World;
 
 pub use excitation::{KINDS, Kind, Limits, Signal};
@@ -28,6 +30,8 @@ pub use excitation::{KINDS, Kind, Limits, Signal};
 const APART: f64 = 10.0;
 /// Passes until a simulation agrees with what effects see of it.
 const PASSES: usize = 4;
+/// Logarithm of the highest odds that are told of a rival: where it is as good as certain.
+const MOST_ODDS: f64 = 50.0;
 /// A plainer excitation is preferred where another resolves less than this much more.
 const WORTH: f64 = 0.1;
 /// Highest frequency that is proposed, as a share of the sampling rate.
@@ -133,21 +137,18 @@ fn chances(
     let data = Data { noise: &noise, rows: &rows, monitor };
     let (own, start) = world.assembly(&named.assembly, &named.fitted);
     let fitted = refine(&own, data, &start);
-    let price = (fitted.rows as f64).ln();
-    let criterion = |left: f64, parameters: usize| left + price * parameters as f64;
-    let truth = criterion(fitted.left, fitted.coefficients.len() + fitted.unit.len());
     let told: Vec<Told> = doubt
         .rivals
         .iter()
         .map(|(id, rival)| {
             let (assembly, start) = world.assembly(&rival.assembly, &rival.fitted);
             let other = refine(&assembly, data, &start);
-            let against = criterion(other.left, other.coefficients.len() + other.unit.len()) - truth;
+            let against = other.criterion() - fitted.criterion();
             // The evidence varies with the noise like a normal variable of this variance.
             let spread = 2.0 * against.max(1.0).sqrt();
             let chance = 1.0 - normal_tail((against - APART) / spread);
-            let known = named.fitted.left + price * named.fitted.parameters() as f64;
-            Told { id, chance, odds: (0.5 * (known - rival.criterion())).exp() }
+            let odds = (0.5 * (named.fitted.criterion() - rival.criterion())).min(MOST_ODDS).exp();
+            Told { id, chance, odds }
         })
         .collect();
     let mut found = by_effect(&told);
@@ -161,48 +162,4 @@ fn chances(
         doubt.hidden.iter().map(|id| (*id, if still.iter().any(|h| h.effect == *id) { 0.0 } else { 1.0 })),
     );
     Some(found)
-}
-
-/// A law that is in doubt, and what an excitation tells of it.
-struct Told {
-    id: &'static str,
-    /// That it is told from the model named, whichever of the two is true.
-    chance: f64,
-    /// That it is true, over those of the model named.
-    odds: f64,
-}
-
-/// Chance of each effect in doubt: the model named is true and rules out each of its laws, or one of these is true and
-/// rules out the model named.
-fn by_effect(told: &[Told]) -> Vec<(&'static str, f64)> {
-    let mut ids: Vec<&'static str> = Vec::new();
-    for law in told {
-        if !ids.contains(&law.id) {
-            ids.push(law.id);
-        }
-    }
-    let chance = |id| {
-        let laws = || told.iter().filter(move |law| law.id == id);
-        let all = laws().map(|law| law.chance).fold(1.0, f64::min);
-        let odds: f64 = laws().map(|law| law.odds).sum();
-        let each: f64 = laws().map(|law| law.odds * law.chance).sum();
-        (id, (all + each) / (1.0 + odds))
-    };
-    ids.into_iter().map(chance).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn an_effect_is_told_apart_with_all_of_its_laws() {
-        let law = |id, chance, odds| Told { id, chance, odds };
-        let told = [law("a", 0.9, 1.0), law("b", 1.0, 1.0), law("b", 0.0, 1.0)];
-        let found = by_effect(&told);
-        assert_eq!(found.iter().map(|(id, _)| *id).collect::<Vec<_>>(), ["a", "b"]);
-        assert!((found[0].1 - 0.9).abs() < 1e-12);
-        // Only where the first law of b is true, a test tells.
-        assert!((found[1].1 - 1.0 / 3.0).abs() < 1e-12);
-    }
 }
