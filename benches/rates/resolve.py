@@ -24,7 +24,7 @@ class Resolved:
     excitation: str | None = None
     """Kind of the proposed test; none where nothing is in doubt."""
     expected: float = 0.0
-    """Chance that it tells all of them apart, as the tool said."""
+    """Product of the chances of telling them apart that the tool gives."""
 
     @property
     def doubted(self) -> bool:
@@ -43,7 +43,8 @@ def run(trial: Trial) -> Resolved:
     if proposal is None or len(before) < 2:
         return Resolved(trial, before, before)
     after, _ = _said(trial, (proposed(proposal, current=1.0),))
-    expected = math.prod(chance for id, chance in proposal["chances"].items() if id in before)
+    told = [chance for id, chance in proposal["chances"].items() if id in before]
+    expected = math.prod(told) if told else 0.0  # the test is for an effect that is hidden
     return Resolved(trial, before, after, str(proposal["excitation"]), expected)
 
 

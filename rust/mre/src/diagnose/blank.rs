@@ -131,10 +131,9 @@ fn one(
     let search = Search { begun: &begun, rows: &rows, splits: &splits, settings: &settings, monitor };
     let Some(found) = monitor.whole(search.run()) else { return Ok(None) };
     let judged = judge(&begun, found, &rows, settings.false_alarm, monitor);
-    let effects = judged.named.assembly.effects()[begun.assembly.effects().len()..].iter();
     let named = match judged.verdict {
         Verdict::Unexplained => Vec::new(),
-        _ => effects.map(|e| e.about().effect).collect(),
+        _ => judged.named.added(&begun).iter().map(|e| e.about().effect).collect(),
     };
     Ok(monitor.whole((judged.verdict, named)))
 }

@@ -12,12 +12,9 @@ use rayon::prelude::*;
 
 use super::distribution::chi_square_tail;
 use super::explained::unexplained;
+use crate::effect::{DRIFT, MEAN};
 
-/// Half-cosines that make a drift.
-pub(super) const DRIFT: RangeInclusive<usize> = 1..=3;
-/// The mean as a half-cosine.
-pub(super) const MEAN: RangeInclusive<usize> = 0..=0;
-/// Its place in the spectrum: noise whose power rises towards zero has a mean as well.
+/// Place of the mean in the spectrum: noise whose power rises towards zero has a mean as well.
 const PLACE_OF_THE_MEAN: f64 = 0.1;
 /// Half-cosines from which the spectrum is extrapolated.
 const BESIDE: std::ops::Range<usize> = 5..100;

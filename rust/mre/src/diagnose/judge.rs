@@ -54,8 +54,7 @@ fn hum_alone<'a>(
 ) -> Option<Named<'a>> {
     let data = Data { noise: &named.noise, rows, monitor };
     let Candidate { assembly, fitted } = beside_the_hum(begun, named, data)?;
-    let added = &named.assembly.effects()[begun.assembly.effects().len()..];
-    let own = added.iter().zip(&named.p_values).filter(|(e, _)| !e.follows_the_motion());
+    let own = named.added(begun).iter().zip(&named.p_values).filter(|(e, _)| !e.follows_the_motion());
     let p_values = own.map(|(_, p)| *p).collect();
     Some(Named { assembly, fitted, next: Some(named.itself()), p_values, ..named.clone() })
 }

@@ -49,7 +49,6 @@ pub fn run<'a>(
         let data = Data { noise: &noise, rows: &rows, monitor };
         return Some(models(&begun, begun.fitted.clone(), named, data));
     };
-    let own = begun.assembly.effects().len();
     let noise = named.noise.clone();
     let data = Data { noise: &noise, rows: &rows, monitor };
     let noise_rms = named.noise_rms(data);
@@ -62,7 +61,7 @@ pub fn run<'a>(
     let mut nearest = Vec::new();
     if verdict == Verdict::Unexplained {
         // Names that leave so much are not to be trusted: the base stands alone, and they are only told.
-        nearest = named.assembly.effects()[own..].iter().map(|e| e.about().effect).collect();
+        nearest = named.added(&begun).iter().map(|e| e.about().effect).collect();
         named.assembly = begun.assembly.clone();
         named.fitted = base_fit.clone();
         named.p_values = Vec::new();

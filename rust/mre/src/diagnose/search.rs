@@ -18,6 +18,7 @@ use super::settings::Settings;
 use super::splits::Splits;
 use super::worth::Improvement;
 use crate::assembly::Assembly;
+use crate::effect::Effect;
 
 /// Most effects that are named.
 const MOST: usize = 4;
@@ -54,6 +55,11 @@ impl<'a> Named<'a> {
     pub(super) fn bare(assembly: Assembly<'a>, fitted: Fitted, noise: Noise) -> Self {
         let (scores, later, p_values) = (Vec::new(), Vec::new(), Vec::new());
         Self { assembly, fitted, noise, scores, next: None, later, p_values }
+    }
+
+    /// The effects beside those that the base was given with.
+    pub(super) fn added(&self, begun: &Begun) -> &[&'static dyn Effect] {
+        &self.assembly.effects()[begun.assembly.effects().len()..]
     }
 
     /// The model with its fit.
@@ -164,12 +170,12 @@ impl<'a> Search<'_, 'a> {
 
     /// Number of effects that were found.
     pub(super) fn found(&self, named: &Named) -> usize {
-        named.assembly.effects().len() - self.given()
+        named.added(self.begun).len()
     }
 
     /// Number of these that follow the motion.
     pub(super) fn moved(&self, named: &Named) -> usize {
-        named.assembly.effects()[self.given()..].iter().filter(|e| e.follows_the_motion()).count()
+        named.added(self.begun).iter().filter(|e| e.follows_the_motion()).count()
     }
 }
 

@@ -1,12 +1,13 @@
 //! p-values of effects that are as slow as slow noise.
 
 use super::candidates::{joint, residuals};
-use super::drift::{DRIFT, MEAN, beside, chance_beside};
+use super::drift::{beside, chance_beside};
 use super::least_squares::Data;
 use super::null::Null;
 use super::screen::Score;
 use super::starts::calm;
 use crate::assembly::Assembly;
+use crate::effect::{DRIFT, MEAN};
 
 /// A slow effect also has to exceed what the noise's spectrum extends to.
 ///

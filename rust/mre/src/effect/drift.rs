@@ -14,6 +14,11 @@ use std::ops::RangeInclusive;
 use super::{About, Effect, Scene, Sizes, order_within, signed};
 use crate::parameter::Parameter;
 
+/// Half-cosines over a recording that make a drift.
+pub(crate) const DRIFT: RangeInclusive<usize> = 1..=3;
+/// The mean as a half-cosine.
+pub(crate) const MEAN: RangeInclusive<usize> = 0..=0;
+
 /// Form of the drift.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Drift {
@@ -48,9 +53,12 @@ impl Effect for Drift {
                 ..linear
             },
             Self::Linear => linear,
-            Self::Offset => {
-                About { law: "linear from an offset", equation: "F_measured = F + D_0 + D t/T", ..linear }
-            }
+            Self::Offset => About {
+                law: "linear from an offset",
+                plain: "the zero of the measured force is off and drifts with time",
+                equation: "F_measured = F + D_0 + D t/T",
+                ..linear
+            },
             Self::Decaying => {
                 About { law: "settling", equation: "F_measured = F + D (1 - exp(-t/tau_d))", ..linear }
             }
@@ -63,7 +71,7 @@ impl Effect for Drift {
     }
 
     fn slow(&self) -> Option<RangeInclusive<usize>> {
-        Some(if matches!(self, Self::Constant) { 0..=0 } else { 1..=3 })
+        Some(if matches!(self, Self::Constant) { MEAN } else { DRIFT })
     }
 
     fn of_the_measurement(&self) -> bool {
@@ -74,7 +82,7 @@ impl Effect for Drift {
         match self {
             Self::Constant | Self::Linear | Self::Decaying => vec![signed("D", "N")],
             Self::Offset => vec![signed("D_0", "N"), signed("D", "N")],
-            Self::Slow => (1..=3).map(|k| signed(&format!("D_{k}"), "N")).collect(),
+            Self::Slow => DRIFT.map(|k| signed(&format!("D_{k}"), "N")).collect(),
         }
     }
 
@@ -104,7 +112,7 @@ impl Effect for Drift {
             Self::Decaying => vec![column(&|t| -(-t / shape[0]).exp_m1())],
             Self::Slow => {
                 let turn = PI / scene.duration();
-                (1..=3).map(|k| column(&|t| (turn * f64::from(k) * t).cos())).collect()
+                DRIFT.map(|k| column(&|t| (turn * k as f64 * t).cos())).collect()
             }
         }
     }

@@ -7,7 +7,8 @@
 //!
 //! Exact for the cubic spline through evenly spaced samples.
 //! Reference: Butterworth, Wireless Engineer 7 (1930) 536.
-//! Known limit: with all frequencies far below the corner it is a time delay.
+//! Known limit: with all frequencies far below the corner it is a time delay; recordings that a filter delays by so
+//! much that the device would give out energy in every cycle are refused.
 
 use std::f64::consts::{SQRT_2, TAU};
 

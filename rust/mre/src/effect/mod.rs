@@ -46,6 +46,7 @@ mod thermal;
 mod with_current;
 
 pub use catalogue::{CATALOGUE, named};
+pub(crate) use drift::{DRIFT, MEAN};
 pub use initial_state::{InitialState, starts_in_motion};
 pub(crate) use operators::slope;
 pub use quantisation::Quantisation;

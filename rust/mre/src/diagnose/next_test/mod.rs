@@ -144,9 +144,11 @@ fn chances(
             let (assembly, start) = world.assembly(&rival.assembly, &rival.fitted);
             let other = refine(&assembly, data, &start);
             let against = other.criterion() - fitted.criterion();
-            // The evidence varies with the noise like a normal variable of this variance.
+            // The evidence varies with the noise like a normal variable of this variance; a model that cannot follow
+            // the excitation at all is ruled out.
             let spread = 2.0 * against.max(1.0).sqrt();
-            let chance = 1.0 - normal_tail((against - APART) / spread);
+            let chance =
+                if against.is_finite() { 1.0 - normal_tail((against - APART) / spread) } else { 1.0 };
             let odds = (0.5 * (named.fitted.criterion() - rival.criterion())).min(MOST_ODDS).exp();
             Told { id, chance, odds }
         })

@@ -4,7 +4,7 @@
 pub(super) struct Told {
     /// Its effect.
     pub(super) id: &'static str,
-    /// That it is told from the model named, whichever of the two is true.
+    /// That it is told from the model named; about the same with either of the two as the truth.
     pub(super) chance: f64,
     /// That it is true, over those of the model named.
     pub(super) odds: f64,
