@@ -7,6 +7,7 @@ import statistics
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from functools import partial
 
 import kernels_numpy
 import mre_core
@@ -116,28 +117,30 @@ def others(case: Case, effort: Effort, rivals: Rivals) -> Iterator[Contestant]:
                     yield entry(name, label, optimizer, kernel)
 
 
+def seedless(name: str, fitness: str, solve: Callable[[], float]) -> Contestant:
+    """One that finds the same fitness with every seed, and counts no evaluations."""
+
+    def run(_seed: int) -> Outcome:
+        start = time.perf_counter()
+        found = solve()
+        return Outcome(time.perf_counter() - start, None, found, False)
+
+    return Contestant(name, fitness, 1, run)
+
+
 def projection(case: Case) -> Contestant:
     """What SciPy can do with the structure of the model: least squares for every beta."""
     from projection import exact_optimum
 
-    def run(_seed: int) -> Outcome:
-        start = time.perf_counter()
-        found = exact_optimum(case.problem, case.problem.recordings[0])
-        return Outcome(time.perf_counter() - start, None, found, False)
-
-    return Contestant("SciPy lsq_linear in minimize_scalar", "NumPy", 1, run)
+    solve = partial(exact_optimum, case.problem, case.problem.recordings[0])
+    return seedless("SciPy lsq_linear in minimize_scalar", "NumPy", solve)
 
 
 def projection_in_c(case: Case, kernels: ctypes.CDLL) -> Contestant:
     """The same in C: linear coefficients without bounds, a grid of beta and golden sections."""
     import kernels_c
 
-    def run(_seed: int) -> Outcome:
-        start = time.perf_counter()
-        found = kernels_c.exact(kernels, case)
-        return Outcome(time.perf_counter() - start, None, found, False)
-
-    return Contestant("C, golden sections", "C", 1, run)
+    return seedless("C, golden sections", "C", partial(kernels_c.exact, kernels, case))
 
 
 def table(case: Case, effort: Effort, rivals: Rivals) -> Iterator[str]:

@@ -61,18 +61,15 @@ def lines(quick: bool) -> Iterator[str]:
     yield f"- {', '.join(rivals.versions())}"
     yield from (f"- {line}" for line in rivals.missing())
     yield from KERNELS.splitlines()
-    for title, entries in (
-        (SINH, kernel_race.sinh(rivals, size)),
-        (BOX, kernel_race.bouc_wen(rivals, max(size // 40, 32), 1.0)),
-        (TRUTH, kernel_race.bouc_wen(rivals, max(size // 20, 32), 0.1)),
+    for text, rows in (
+        (SINH, kernel_race.table(kernel_race.sinh(rivals, size), rounds)),
+        (SIZES, size_race.table(10_000 if quick else 10_000_000, rounds)),
+        (BOX, kernel_race.table(kernel_race.bouc_wen(rivals, max(size // 40, 32), 1.0), rounds)),
+        (TRUTH, kernel_race.table(kernel_race.bouc_wen(rivals, max(size // 20, 32), 0.1), rounds)),
     ):
-        yield from title.splitlines()
+        yield from text.splitlines()
         yield ""
-        yield from kernel_race.table(entries, rounds)
-        if title == SINH:
-            yield from SIZES.splitlines()
-            yield ""
-            yield from size_race.table(10_000 if quick else 10_000_000, rounds)
+        yield from rows
     yield from OPTIMIZERS.format(limit=effort.limit, spent=optimizer_race.SPENT).splitlines()
     for model in ("sinh", "bouc_wen"):
         yield ""

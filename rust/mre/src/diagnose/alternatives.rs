@@ -31,7 +31,6 @@ pub(super) fn rivals<'a>(
     };
     let best = candidates(&without.assembly, data, unit, &scored, REFITTED);
     let mut found: Vec<(&'static str, Candidate)> = best.into_iter().filter_map(told).collect();
-    let Some(null) = Null::new(&without.assembly, data, unit) else { return found };
     // The other laws of the same effects: one of them may be what no test tells from the effect named.
     let law = |c: &Candidate| c.assembly.effects().last().map(|e| e.about().law);
     let others: Vec<&Score> = scored
@@ -42,6 +41,8 @@ pub(super) fn rivals<'a>(
             alike.peek().is_some() && alike.all(|(_, c)| law(c) != Some(about.law))
         })
         .collect();
+    let null = (!others.is_empty()).then(|| Null::new(&without.assembly, data, unit)).flatten();
+    let Some(null) = null else { return found };
     let others: Vec<Candidate> = others
         .into_par_iter()
         .map(|score| joint(&without.assembly, data, unit, score.effect, &null.held(score).shape))

@@ -43,12 +43,12 @@ impl SinhDirect {
     /// Sum of squared errors of `[c0, k0, alpha, beta, F0]`; infinite where sinh overflows.
     pub(crate) fn sum_of_squares(&self, x: &[f64]) -> f64 {
         let (c0, k0, alpha, beta, f0) = (x[0], x[1] * self.scale, x[2], x[3] * self.scale, x[4]);
-        let (x, v, f) = (&self.displacement[..], &self.velocity[..], &self.force[..]);
+        let samples = [&self.displacement[..], &self.velocity[..], &self.force[..]];
         if let Some((mut odd, count)) = sinh_series::coefficients(alpha, beta, self.farthest) {
             odd[0] += k0;
-            sum_of_odd(self.isa, x, v, f, c0, f0, &odd[..count])
+            sum_of_odd(self.isa, samples, [c0, f0], &odd[..count])
         } else if beta.abs() * self.farthest <= LARGEST {
-            sum(self.isa, x, v, f, [c0, k0, alpha, beta, f0])
+            sum(self.isa, samples, [c0, k0, alpha, beta, f0])
         } else {
             self.sum_near_overflow([c0, k0, alpha, beta, f0])
         }
@@ -68,40 +68,27 @@ fn power_of_two_above(number: f64) -> f64 {
     if number > 0.0 { 2.0 * f64::from_bits(number.to_bits() & EXPONENT) } else { 1.0 }
 }
 
-for_every_isa!(sum, sum_generic, (x: &[f64], v: &[f64], f: &[f64], candidate: [f64; 5]) -> f64);
-for_every_isa!(sum_of_odd, sum_of_odd_generic,
-    (x: &[f64], v: &[f64], f: &[f64], c0: f64, f0: f64, odd: &[f64]) -> f64);
+for_every_isa!(sum, sum_generic, (samples: [&[f64]; 3], candidate: [f64; 5]) -> f64);
+for_every_isa!(sum_of_odd, sum_of_odd_generic, (samples: [&[f64]; 3], plain: [f64; 2], odd: &[f64]) -> f64);
 
 #[inline(always)]
-fn sum_generic<const FUSED: bool>(
-    x: &[f64],
-    v: &[f64],
-    f: &[f64],
-    [c0, k0, alpha, beta, f0]: [f64; 5],
-) -> f64 {
-    sum_of_residuals::<FUSED>(x, v, f, |x, v, f| {
+fn sum_generic<const FUSED: bool>(samples: [&[f64]; 3], [c0, k0, alpha, beta, f0]: [f64; 5]) -> f64 {
+    sum_of_residuals::<FUSED>(samples, |x, v, f| {
         let rest = fma::<FUSED>(-k0, x, fma::<FUSED>(-c0, v, f - f0));
         fma::<FUSED>(-alpha, sinh_lane::<FUSED>(beta * x), rest)
     })
 }
 
-/// For `x (odd[0] + odd[1] x^2 + ...)` in place of `k0 x + alpha sinh(beta x)`.
+/// For `c0 v + x (odd[0] + odd[1] x^2 + ...) + F0`, `[c0, F0]` being plain.
 #[inline(always)]
-fn sum_of_odd_generic<const FUSED: bool>(
-    x: &[f64],
-    v: &[f64],
-    f: &[f64],
-    c0: f64,
-    f0: f64,
-    odd: &[f64],
-) -> f64 {
+fn sum_of_odd_generic<const FUSED: bool>(samples: [&[f64]; 3], plain: [f64; 2], odd: &[f64]) -> f64 {
     // The number of coefficients, from the shortest series on, is known to the compiler in each branch: no loop
     // inside the lanes.
     macro_rules! by_count {
         ($($count:literal),*) => {
             match odd.len() {
-                $($count => with_count::<FUSED, $count>(x, v, f, c0, f0, odd),)*
-                _ => with_count::<FUSED, LONGEST>(x, v, f, c0, f0, odd),
+                $($count => with_count::<FUSED, $count>(samples, plain, odd),)*
+                _ => with_count::<FUSED, LONGEST>(samples, plain, odd),
             }
         };
     }
@@ -110,16 +97,13 @@ fn sum_of_odd_generic<const FUSED: bool>(
 
 #[inline(always)]
 fn with_count<const FUSED: bool, const COUNT: usize>(
-    x: &[f64],
-    v: &[f64],
-    f: &[f64],
-    c0: f64,
-    f0: f64,
+    samples: [&[f64]; 3],
+    [c0, f0]: [f64; 2],
     odd: &[f64],
 ) -> f64 {
     let mut c = [0.0; COUNT];
     c.copy_from_slice(&odd[..COUNT]);
-    sum_of_residuals::<FUSED>(x, v, f, |x, v, f| {
+    sum_of_residuals::<FUSED>(samples, |x, v, f| {
         let q = x * x;
         let mut p = c[COUNT - 1];
         for i in (0..COUNT - 1).rev() {
@@ -131,9 +115,7 @@ fn with_count<const FUSED: bool, const COUNT: usize>(
 
 #[inline(always)]
 fn sum_of_residuals<const FUSED: bool>(
-    x: &[f64],
-    v: &[f64],
-    f: &[f64],
+    [x, v, f]: [&[f64]; 3],
     residual: impl Fn(f64, f64, f64) -> f64,
 ) -> f64 {
     let ((x, x_rest), (v, v_rest), (f, f_rest)) =
