@@ -26,8 +26,10 @@ const UNBENT: usize = 2;
 const STAGES: [(usize, usize); 3] = [(4, 1), (2, 2), (1, 3)];
 /// Repetitions of a fit whose effect follows from the force.
 const PASSES: usize = 4;
-/// Candidates closer than this in the criterion fit equally well.
+/// Candidates closer than this in the criterion fit about equally well.
 const TIE: f64 = 4.0;
+/// A difference in the criterion that fits alone may make.
+const NUMERICAL: f64 = 0.1;
 /// No law is exact: a difference below this share of what a candidate explains is no reason to prefer it.
 const EXACT: f64 = 3e-5;
 /// Laws of one effect that are fitted jointly.
@@ -61,6 +63,12 @@ impl Candidate<'_> {
     fn place(&self) -> usize {
         let last = self.assembly.effects().last().map(|e| e.about());
         CATALOGUE.iter().position(|e| Some(e.about()) == last).unwrap_or(usize::MAX)
+    }
+
+    /// True where the last law is the plainest of its effect.
+    fn plainest(&self) -> bool {
+        let id = self.added();
+        CATALOGUE.iter().position(|e| Some(e.about().effect) == id) == Some(self.place())
     }
 }
 
@@ -227,10 +235,13 @@ pub(super) fn candidates<'a>(
     found = found.into_par_iter().map(|c| unbent(c, data)).collect();
     found.extend(rest);
     found.sort_by(|a, b| a.criterion().total_cmp(&b.criterion()));
-    // In a tie the plainest is named: fewest parameters, then the first of the catalogue.
+    // In a tie the plainest is named: fewest parameters, then the plainest law of an effect, then what fits best.
     let explained = found.first().map_or(0.0, |best| null.point.fitted.left - best.fitted.left);
     let best = found.first().map_or(0.0, Candidate::criterion);
     let tied = found.partition_point(|c| c.criterion() <= best + margin(TIE, explained));
-    found[..tied].sort_by_key(|c| (c.fitted.parameters(), c.place()));
+    found[..tied].sort_by_key(|c| {
+        let behind = ((c.criterion() - best) / NUMERICAL) as usize;
+        (c.fitted.parameters(), !c.plainest(), behind, c.place())
+    });
     found
 }

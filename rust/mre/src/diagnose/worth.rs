@@ -2,15 +2,18 @@
 
 use super::candidates::Candidate;
 use super::monitor::Stage;
+use super::needless::keeping;
 use super::noise::Noise;
 use super::prove::prove;
 use super::search::{Named, Search};
 use super::splits::Split;
 
-/// A further effect lowers the held-out rms by more than this share of the noise's rms.
+/// A further effect lowers the held-out rms by more than this share of the noise's rms,
 const LEAST_OF_NOISE: f64 = 0.1;
-/// And by more than this share of what the first one lowered it, unless it leaves next to nothing: what patches
-/// the form of the first leaves some.
+/// or, beside a first that is as weak, by this share of what the first one lowered it;
+const BESIDE_A_WEAK: f64 = 0.25;
+/// And by more than this share of that, unless it leaves next to nothing: what patches the form of the first leaves
+/// some.
 const LEAST_OF_FIRST: f64 = 0.2;
 /// Share of the mean square beyond the noise's that is next to nothing.
 const NOTHING: f64 = 0.1;
@@ -89,8 +92,20 @@ impl<'a> Search<'_, 'a> {
         let whole = beyond(rest - held_out) < NOTHING * beyond(rest);
         let of_first = if whole { 0.0 } else { LEAST_OF_FIRST * by_first };
         let follows = next.assembly.effects().last().is_some_and(|e| e.follows_the_motion());
-        let least = if follows { (LEAST_OF_NOISE * noise).max(of_first).max(of_rest) } else { 0.0 };
-        (held_out >= least).then_some(best)
+        let weak = if by_first > 0.0 { BESIDE_A_WEAK * by_first } else { f64::INFINITY };
+        let of_noise = weak.min(LEAST_OF_NOISE * noise);
+        let least = if follows { of_noise.max(of_first).max(of_rest) } else { 0.0 };
+        let plain = || follows && !best.noise.hidden() && self.share(here, next) >= BESIDE_A_WEAK;
+        (held_out >= least || (held_out >= 0.0 && plain())).then_some(best)
+    }
+
+    /// What a candidate takes off, as a share of what the effects before it do beside a hum, in squared standard
+    /// deviations: in slow noise these tell what no rms does.
+    fn share(&self, here: &Named<'a>, next: &Candidate<'a>) -> f64 {
+        let effects = here.assembly.effects();
+        let kept = |place: usize| place < self.given() || !effects[place].follows_the_motion();
+        let before = keeping(here, self.data(&here.noise), kept);
+        (here.fitted.left - next.fitted.left) / (before.fitted.left - here.fitted.left).max(f64::MIN_POSITIVE)
     }
 
     /// What one model improves of another.

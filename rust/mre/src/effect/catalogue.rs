@@ -1,6 +1,7 @@
 //! Every law of every effect.
 
 use super::Effect;
+use super::adiabatic::Adiabatic;
 use super::asymmetric::Asymmetric;
 use super::backlash::Backlash;
 use super::clipping::Clipping;
@@ -104,6 +105,22 @@ pub const CATALOGUE: &[&dyn Effect] = &[
         law: &Mullins { by: Softening::Power, whole: false },
         name: "power of the largest strain, spring",
     },
+    &Thermal { viscous: false, exponential: false, whole: false },
+    &Thermal { viscous: false, exponential: false, whole: true },
+    &Thermal { viscous: false, exponential: true, whole: false },
+    &Thermal { viscous: false, exponential: true, whole: true },
+    &Thermal { viscous: true, exponential: false, whole: false },
+    &Thermal { viscous: true, exponential: false, whole: true },
+    &OnSpring { law: &Thermal { viscous: false, exponential: false, whole: false }, name: "linear, spring" },
+    &OnSpring {
+        law: &Thermal { viscous: false, exponential: true, whole: false },
+        name: "exponential, spring",
+    },
+    &Adiabatic { viscous: false, whole: false },
+    &Adiabatic { viscous: false, whole: true },
+    &Adiabatic { viscous: true, whole: false },
+    &Adiabatic { viscous: true, whole: true },
+    &OnSpring { law: &Adiabatic { viscous: false, whole: false }, name: "no cooling, spring" },
     &Degradation { by: Progress::Path, saturates: false, whole: false },
     &Degradation { by: Progress::Path, saturates: false, whole: true },
     &Degradation { by: Progress::Path, saturates: true, whole: false },
@@ -131,17 +148,6 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &OnSpring {
         law: &Degradation { by: Progress::Work, saturates: true, whole: false },
         name: "energy, saturating, spring",
-    },
-    &Thermal { viscous: false, exponential: false, whole: false },
-    &Thermal { viscous: false, exponential: false, whole: true },
-    &Thermal { viscous: false, exponential: true, whole: false },
-    &Thermal { viscous: false, exponential: true, whole: true },
-    &Thermal { viscous: true, exponential: false, whole: false },
-    &Thermal { viscous: true, exponential: false, whole: true },
-    &OnSpring { law: &Thermal { viscous: false, exponential: false, whole: false }, name: "linear, spring" },
-    &OnSpring {
-        law: &Thermal { viscous: false, exponential: true, whole: false },
-        name: "exponential, spring",
     },
     &Payne { by: Amplitude::Forgotten, whole: false },
     &Payne { by: Amplitude::Forgotten, whole: true },

@@ -10,7 +10,7 @@
 //! Yang, Spencer, Carlson and Sain, Eng. Struct. 24 (2002) 309 (coil).
 //! Known limit: the lag of the coil and that of its controller are one.
 
-use super::operators::lag;
+use super::smooth_lag::smooth_lag;
 use super::{About, Effect, Scene, Sizes, order_within};
 use crate::parameter::Parameter;
 
@@ -75,10 +75,10 @@ impl Effect for FieldLag {
     fn current(&self, scene: &Scene, shape: &[f64]) -> Option<Vec<f64>> {
         let (current, time) = (scene.current?, scene.time);
         Some(match self {
-            Self::One => lag(time, current, shape[0], current[0]),
+            Self::One => smooth_lag(time, current, shape[0], current[0]),
             Self::Twice => {
-                let once = lag(time, current, shape[0], current[0]);
-                lag(time, &once, shape[0], current[0])
+                let once = smooth_lag(time, current, shape[0], current[0]);
+                smooth_lag(time, &once, shape[0], current[0])
             }
             Self::RiseAndFall => scene.trace(current[0], |field, i| {
                 let target = 0.5 * (current[i - 1] + current[i]);

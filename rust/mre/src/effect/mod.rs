@@ -6,6 +6,7 @@
 //! the base model sees (motion, current), or changes what is measured. Everything else (simulation, joint
 //! fits, diagnosis) follows from that.
 
+mod adiabatic;
 mod asymmetric;
 mod backlash;
 mod catalogue;
@@ -37,6 +38,7 @@ mod quantisation;
 mod remanence;
 mod rig;
 mod scene;
+mod smooth_lag;
 mod stiffness_jump;
 mod stribeck;
 #[cfg(test)]

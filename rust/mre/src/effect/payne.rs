@@ -4,7 +4,7 @@
 //! |---|---|---|---|
 //! | s | largest share of the stiffness that is lost | - | 0 to 0.95 |
 //! | `x_c` | amplitude at which half of it is lost | mm | 1 % to 200 % of the largest stroke |
-//! | `t_a` | time over which a past amplitude, or the loss, is forgotten | s | 0.05 s to half the longest recording |
+//! | `t_a` | time over which a past amplitude, or the loss, is forgotten | s | 0.05 s to half the longest recording, or 10 s |
 //! | m | exponent of the amplitude (twice that of Kraus) | - | 0.3 to 2 |
 //! | r | rate at which motion breaks the structure | 1/mm | 0.02 to 20 over the largest stroke |
 //!
@@ -43,6 +43,11 @@ pub(super) struct Payne {
     pub(super) by: Amplitude,
     /// True where damping softens like stiffness.
     pub(super) whole: bool,
+}
+
+/// Longest time over which an amplitude is forgotten, s: rubber does so in seconds, recordings may be shorter.
+fn longest_memory(sizes: &Sizes) -> f64 {
+    (0.5 * sizes.duration).max(10.0)
 }
 
 /// Largest displacement so far, forgotten over a time: the current amplitude.
@@ -132,7 +137,7 @@ impl Effect for Payne {
         let x = sizes.displacement;
         let s = within("s", "", 0.0, 0.95);
         let x_c = order_within("x_c", "mm", 0.01 * x, 2.0 * x);
-        let t_a = order_within("t_a", "s", 0.05, (0.5 * sizes.duration).max(0.1));
+        let t_a = order_within("t_a", "s", 0.05, longest_memory(sizes));
         let m = order_within("m", "", 0.3, 2.0);
         match self.by {
             Amplitude::Forgotten | Amplitude::MeanSquare => vec![s, x_c, t_a, m],
@@ -143,7 +148,7 @@ impl Effect for Payne {
 
     fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
         let x = sizes.displacement;
-        let longest = (0.5 * sizes.duration).max(0.1);
+        let longest = longest_memory(sizes);
         let grid = |firsts: [f64; 2], make: &dyn Fn(f64, f64) -> Vec<f64>| {
             let times = [0.3, 1.0, 3.0].map(|t: f64| t.min(longest));
             times.iter().flat_map(|t| firsts.map(|first| make(first, *t))).collect()

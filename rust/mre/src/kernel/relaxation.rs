@@ -36,7 +36,7 @@ pub(crate) fn lag(time: &[f64], input: &[f64], tau: f64, start: f64) -> Vec<f64>
 }
 
 /// Stretches of samples that follow their predecessors after equal steps.
-fn runs(time: &[f64]) -> impl Iterator<Item = (usize, usize)> {
+pub(crate) fn runs(time: &[f64]) -> impl Iterator<Item = (usize, usize)> {
     let mut next = 1;
     std::iter::from_fn(move || {
         let from = next;
