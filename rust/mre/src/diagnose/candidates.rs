@@ -28,7 +28,7 @@ const STAGES: [(usize, usize); 3] = [(4, 1), (2, 2), (1, 3)];
 const PASSES: usize = 4;
 /// Candidates closer than this in the criterion fit about equally well.
 const TIE: f64 = 4.0;
-/// A difference in the criterion that fits alone may make.
+/// Differences in the criterion below this come from where a fit stops.
 const NUMERICAL: f64 = 0.1;
 /// No law is exact: a difference below this share of what a candidate explains is no reason to prefer it.
 const EXACT: f64 = 3e-5;
