@@ -5,7 +5,7 @@ import subprocess
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import mre_core
 import numpy as np
@@ -13,6 +13,9 @@ import pytest
 from mre_core import Level, Model, Recording
 from mre_core.cli import main
 from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from mre_core.concealed import Campaign
 
 SINH = {"c0": 1.108, "k0": 13.702, "alpha": 14.645, "beta": 0.302, "F0": 0.001}
 """1 A and 4 mm in the replica of the seed paper's campaign."""
@@ -130,3 +133,11 @@ class Cli:
 def everything_in(folder: Path) -> set[str]:
     """Files and folders below a folder, hidden ones included."""
     return {str(path.relative_to(folder)) for path in folder.rglob("*")}
+
+
+def recordings_of(made: "Campaign") -> list[Recording]:
+    """What a diagnosis gets of a campaign with concealed physics."""
+    return [
+        Recording(r.time, r.displacement, r.force, velocity=r.velocity, current=r.current, name=r.name)
+        for r in made.recordings
+    ]

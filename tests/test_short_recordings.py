@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from mre_core import Diagnosis, Recording
 from mre_core.trial.case import Case
+from rig import recordings_of
 
 
 def diagnosed(
@@ -18,12 +19,7 @@ def diagnosed(
 ) -> Diagnosis:
     excitation = "field" if "field_lag" in effects else "rich"
     case = Case(effects, laws, base, strength, noise, "given", excitation, samples, 0.01, 0.0, seed)
-    made = case.simulate()
-    recordings = [
-        Recording(r.time, r.displacement, r.force, velocity=r.velocity, current=r.current, name=r.name)
-        for r in made.recordings
-    ]
-    return mre_core.diagnose(recordings, base, seed=1)
+    return mre_core.diagnose(recordings_of(case.simulate()), base, seed=1)
 
 
 def test_an_amplitude_that_outlasts_the_recordings_is_payne_softening() -> None:

@@ -8,6 +8,7 @@ import pytest
 from mre_core import Diagnosis, Recording
 from mre_core.trial.case import Case
 from numpy.typing import NDArray
+from rig import recordings_of
 
 Array = NDArray[np.float64]
 
@@ -19,11 +20,7 @@ def diagnosed(effect: str, law: str, base: str, noise: str, strength: float, see
     case = Case((effect,), (law,), base, strength, noise, "given", excitation, None, 0.01, 0.0, seed)
     made = case.simulate()
     assert made.unexplained_rms < 1.05 * strength * made.noise_rms
-    recordings = [
-        Recording(r.time, r.displacement, r.force, velocity=r.velocity, current=r.current, name=r.name)
-        for r in made.recordings
-    ]
-    return mre_core.diagnose(recordings, base, seed=1)
+    return mre_core.diagnose(recordings_of(made), base, seed=1)
 
 
 @pytest.mark.parametrize(

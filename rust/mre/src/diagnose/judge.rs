@@ -6,7 +6,7 @@ use super::exchange::CLEAR;
 use super::least_squares::{Data, Fitted, refine};
 use super::missing::{Generic, Mismatch};
 use super::monitor::Monitor;
-use super::needless::keeping;
+use super::needless::beside_a_hum;
 use super::normal::Rows;
 use super::null::Null;
 use super::point::forces;
@@ -98,10 +98,8 @@ fn alone<'a>(
 
 /// The base with the hum that is named: other effects are judged by what they explain beside it.
 fn beside_the_hum<'a>(begun: &Begun<'a>, named: &Named<'a>, data: Data) -> Option<Candidate<'a>> {
-    let given = begun.assembly.effects().len();
-    let effects = named.assembly.effects();
-    let hums = effects[given..].iter().any(|e| !e.follows_the_motion());
-    hums.then(|| keeping(named, data, |place| place < given || !effects[place].follows_the_motion()))
+    let hums = named.added(begun).iter().any(|e| !e.follows_the_motion());
+    hums.then(|| beside_a_hum(named, data, begun.assembly.effects().len()))
 }
 
 /// Effects refer to the force of the base as it is in the joint model, as a simulation will have it.

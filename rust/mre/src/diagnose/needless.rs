@@ -8,7 +8,7 @@ use super::prove::prove;
 use super::search::{Named, Search};
 
 /// A model with those of its effects, by place, that are kept, refitted.
-pub(super) fn keeping<'a>(named: &Named<'a>, data: Data, kept: impl Fn(usize) -> bool) -> Candidate<'a> {
+fn keeping<'a>(named: &Named<'a>, data: Data, kept: impl Fn(usize) -> bool) -> Candidate<'a> {
     let sizes = named.assembly.campaign().sizes();
     let shapes = named.assembly.physical(&named.fitted.unit);
     let (base, mut rest) = shapes.split_at(named.assembly.base_shapes());
@@ -24,6 +24,12 @@ pub(super) fn keeping<'a>(named: &Named<'a>, data: Data, kept: impl Fn(usize) ->
     let narrower = named.assembly.with(effects);
     let unit = narrower.unit(&own);
     fit(narrower, data, &unit)
+}
+
+/// A model with the effects that were given, `given` of them, and what does not follow the motion: a hum.
+pub(super) fn beside_a_hum<'a>(named: &Named<'a>, data: Data, given: usize) -> Candidate<'a> {
+    let effects = named.assembly.effects();
+    keeping(named, data, |place| place < given || !effects[place].follows_the_motion())
 }
 
 impl<'a> Search<'_, 'a> {

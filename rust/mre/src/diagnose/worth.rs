@@ -2,7 +2,7 @@
 
 use super::candidates::Candidate;
 use super::monitor::Stage;
-use super::needless::keeping;
+use super::needless::beside_a_hum;
 use super::noise::Noise;
 use super::prove::prove;
 use super::search::{Named, Search};
@@ -102,9 +102,7 @@ impl<'a> Search<'_, 'a> {
     /// What a candidate takes off, as a share of what the effects before it do beside a hum, in squared standard
     /// deviations: in slow noise these tell what no rms does.
     fn share(&self, here: &Named<'a>, next: &Candidate<'a>) -> f64 {
-        let effects = here.assembly.effects();
-        let kept = |place: usize| place < self.given() || !effects[place].follows_the_motion();
-        let before = keeping(here, self.data(&here.noise), kept);
+        let before = beside_a_hum(here, self.data(&here.noise), self.given());
         (here.fitted.left - next.fitted.left) / (before.fitted.left - here.fitted.left).max(f64::MIN_POSITIVE)
     }
 

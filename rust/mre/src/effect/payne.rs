@@ -148,10 +148,8 @@ impl Effect for Payne {
 
     fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
         let x = sizes.displacement;
-        let longest = longest_memory(sizes);
         let grid = |firsts: [f64; 2], make: &dyn Fn(f64, f64) -> Vec<f64>| {
-            let times = [0.3, 1.0, 3.0].map(|t: f64| t.min(longest));
-            times.iter().flat_map(|t| firsts.map(|first| make(first, *t))).collect()
+            [0.3, 1.0, 3.0].iter().flat_map(|t| firsts.map(|first| make(first, *t))).collect()
         };
         match self.by {
             Amplitude::Forgotten | Amplitude::MeanSquare => {

@@ -17,12 +17,12 @@ pub(super) fn smooth_lag(time: &[f64], input: &[f64], tau: f64, start: f64) -> V
     out.push(y);
     for (from, to) in runs(time) {
         let h = time[from] - time[from - 1];
-        let weights = weights(h / tau);
+        let (decay, weights) = ((-h / tau).exp(), weights(h / tau));
         for i in from..to {
             let (a, b) = (input[i - 1], input[i]);
             let (m, n) = (h * slopes[i - 1], h * slopes[i]);
             let cubic = [a, m, 3.0 * (b - a) - 2.0 * m - n, m + n - 2.0 * (b - a)];
-            y = (-h / tau).exp() * y + cubic.iter().zip(weights).map(|(c, w)| c * w).sum::<f64>();
+            y = decay * y + cubic.iter().zip(weights).map(|(c, w)| c * w).sum::<f64>();
             out.push(y);
         }
     }
