@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 import mre_core
 import numpy as np
 import pytest
-from mre_core import Level, Model, Recording
+from mre_core import Diagnosis, Level, Model, Recording
 from mre_core.cli import main
+from mre_core.trial.case import Case
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
@@ -141,3 +142,18 @@ def recordings_of(made: "Campaign") -> list[Recording]:
         Recording(r.time, r.displacement, r.force, velocity=r.velocity, current=r.current, name=r.name)
         for r in made.recordings
     ]
+
+
+def diagnosed(
+    effects: tuple[str, ...],
+    laws: tuple[str, ...],
+    base: str,
+    noise: str,
+    strength: float,
+    seed: int,
+    samples: int | None = None,
+) -> Diagnosis:
+    """Diagnosis of a concealed campaign, with its textbook excitation or that of the current."""
+    excitation = "field" if any(e.startswith("field_") for e in effects) else "rich"
+    case = Case(effects, laws, base, strength, noise, "given", excitation, samples, 0.01, 0.0, seed)
+    return mre_core.diagnose(recordings_of(case.simulate()), base, seed=1)

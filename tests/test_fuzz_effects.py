@@ -13,7 +13,7 @@ from mre_core import Effect, Level, Model, MreError, Recording, _core
 from rig import BOUC_WEN, SINH
 
 LAWS = [(row["id"], row["law"]) for row in _core.catalogue()]
-SIZES = ("displacement", "velocity", "force", "step", "duration", "total", "path", "energy")
+SIZES = ("displacement", "velocity", "force", "step", "duration", "total", "path", "energy", "dissipated")
 
 
 def sizes_of(recording: Recording, data: st.DataObject) -> dict[str, Any]:

@@ -3,23 +3,8 @@
 import mre_core
 import numpy as np
 import pytest
-from mre_core import Diagnosis, Recording
-from mre_core.trial.case import Case
-from rig import recordings_of
-
-
-def diagnosed(
-    effects: tuple[str, ...],
-    laws: tuple[str, ...],
-    base: str,
-    noise: str,
-    strength: float,
-    seed: int,
-    samples: int | None = None,
-) -> Diagnosis:
-    excitation = "field" if "field_lag" in effects else "rich"
-    case = Case(effects, laws, base, strength, noise, "given", excitation, samples, 0.01, 0.0, seed)
-    return mre_core.diagnose(recordings_of(case.simulate()), base, seed=1)
+from mre_core import Recording
+from rig import diagnosed
 
 
 def test_an_amplitude_that_outlasts_the_recordings_is_payne_softening() -> None:

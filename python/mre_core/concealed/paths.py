@@ -132,9 +132,9 @@ def followed(flow: Flow, path: Path, rho: float) -> Array:
 
 
 def played(path: Path, radius: Array) -> Array:
-    """Play operators of the given radii, shape (samples, radii)."""
+    """Play operators of the given radii, shape (samples, radii), that were brought to the start from zero."""
     out = np.empty((len(path.x), len(radius)))
-    p = np.zeros(len(radius))
+    p = np.clip(0.0, path.x[0] - radius, path.x[0] + radius)
     for part in path.stretches:
         here, r = slice(part.first, part.last), -part.direction * radius
         limit = np.maximum if part.direction > 0 else np.minimum

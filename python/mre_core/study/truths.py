@@ -99,6 +99,7 @@ _SIZES = {
     "total": 12 * _SECONDS,
     "path": 130.0,
     "energy": 1e4,
+    "dissipated": 3e3,
     "current": None,
     "current_varies": False,
     "quantum": None,

@@ -227,6 +227,7 @@ fn sizes(found: &Diagnosis) -> Value {
     json!({
         "displacement": s.displacement, "velocity": s.velocity, "force": s.force, "step": s.step,
         "duration": s.duration, "total": s.total, "path": s.path, "energy": s.energy,
+        "dissipated": s.dissipated,
         "current": s.current, "current_varies": s.current_varies,
         "quantum": s.quantum,
     })

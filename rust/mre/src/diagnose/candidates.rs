@@ -151,13 +151,18 @@ fn promising<'s>(null: &Null, scores: &'s [Score], most: usize) -> Vec<Held<'s>>
         .filter(|s| s.gain > 0.0 && s.p_value < 0.5 && s.gain >= PROMISING * best)
         .map(|s| null.held(s))
         .collect();
-    refined.sort_by(|a, b| b.gain.total_cmp(&a.gain));
-    let best = refined.first().map_or(0.0, |held| held.gain);
+    let best = refined.iter().map(|held| held.gain).fold(0.0, f64::max);
+    let price = (null.point.fitted.rows as f64).ln();
+    let size = |held: &Held| held.score.freedom + held.shape.len();
+    let paid = |held: &Held| held.gain - price * size(held) as f64;
+    refined.sort_by(|a, b| paid(b).total_cmp(&paid(a)));
     let mut kept: Vec<Held> = Vec::new();
     for held in refined {
         let id = held.score.effect.about().effect;
-        let alike = kept.iter().filter(|k| k.score.effect.about().effect == id).count();
-        if alike < LAWS_EACH && held.gain >= CLOSE * best && kept.len() < most {
+        let alike: Vec<&Held> = kept.iter().filter(|k| k.score.effect.about().effect == id).collect();
+        // A simpler law that does as well may decide a tie.
+        let simpler = alike.iter().all(|k| size(&held) < size(k) && paid(&held) > paid(k) - TIE);
+        if (alike.len() < LAWS_EACH || simpler) && held.gain >= CLOSE * best && kept.len() < most {
             kept.push(held);
         }
     }

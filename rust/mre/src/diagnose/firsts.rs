@@ -10,6 +10,8 @@ use super::worth::SLIGHT;
 
 /// Candidates for the first of a pair.
 const FIRSTS: usize = 5;
+/// A pair takes off more than this share of what the best single effect does beyond it.
+const LEAST_SHARE: f64 = 0.05;
 
 impl<'a> Search<'_, 'a> {
     /// The first of the best pair, where the pair from another first is clearly better than the pair from
@@ -42,8 +44,8 @@ impl<'a> Search<'_, 'a> {
             .collect();
         let pairs = self.monitor.whole(pairs)?;
         let below = |size: &dyn Fn(&(Candidate<'a>, Candidate<'a>)) -> f64, least: f64| {
-            let tried = pairs.iter().map(|pair| (size(pair), &pair.0)).filter(|(size, _)| *size < least);
-            tried.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, first)| first)
+            let tried = pairs.iter().map(|pair| (size(pair), pair)).filter(|(size, _)| *size < least);
+            tried.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, pair)| pair)
         };
         let other = if single.noise.hidden() {
             let error = |c: &Candidate<'a>| self.held_out(&single.noise, c);
@@ -57,12 +59,29 @@ impl<'a> Search<'_, 'a> {
         } else {
             let explained = before.next.as_ref().map_or(0.0, |next| before.fitted.left - next.fitted.left);
             let clear = margin(CLEAR, explained);
-            below(&|(_, pair)| pair.criterion(), second.criterion() - clear)
+            let of_pair = below(&|(_, pair)| pair.criterion(), second.criterion() - clear);
+            let worth = of_pair.is_some_and(|(_, pair)| self.worth_both(before, &single, pair));
+            of_pair
+                .filter(|_| worth)
                 .or_else(|| below(&|(first, _)| first.criterion(), single.itself().criterion() - clear))
         };
-        let Some(first) = other else { return Some(single) };
+        let Some((first, _)) = other else { return Some(single) };
         let mut named = self.look(first.assembly.clone(), &first.fitted.unit, &single.noise)?;
         named.p_values = single.p_values;
         Some(named)
+    }
+
+    /// True where a pair is worth two names in the place of one: two forms always bend closer than one.
+    fn worth_both(&self, before: &Named<'a>, single: &Named<'a>, pair: &Candidate<'a>) -> bool {
+        let worth = || {
+            if self.share(single, pair) < LEAST_SHARE {
+                return None;
+            }
+            let by_single = self.improvement(before, single)?.held_out;
+            let mut both = self.look(pair.assembly.clone(), &pair.fitted.unit, &single.noise)?;
+            both.p_values = vec![f64::NAN; self.found(&both)];
+            self.worth(single, pair, &self.best_law(both)?, by_single)
+        };
+        worth().unwrap_or(false)
     }
 }

@@ -86,7 +86,18 @@ impl<'a> Search<'_, 'a> {
         by_first: f64,
     ) -> Option<Named<'a>> {
         let best = self.best_law(self.wider(here, next)?)?;
-        let Improvement { held_out, rest, noise, .. } = self.improvement(here, &best)?;
+        self.worth(here, next, &best, by_first)?.then_some(best)
+    }
+
+    /// True where a model, which comes of a candidate, is worth its effects beyond those of another.
+    pub(super) fn worth(
+        &self,
+        here: &Named<'a>,
+        next: &Candidate<'a>,
+        best: &Named<'a>,
+        by_first: f64,
+    ) -> Option<bool> {
+        let Improvement { held_out, rest, noise, .. } = self.improvement(here, best)?;
         let of_rest = if best.noise.hidden() { LEAST_OF_REST * rest } else { 0.0 };
         let beyond = |rms: f64| rms * rms - noise * noise;
         let whole = beyond(rest - held_out) < NOTHING * beyond(rest);
@@ -96,12 +107,12 @@ impl<'a> Search<'_, 'a> {
         let of_noise = weak.min(LEAST_OF_NOISE * noise);
         let least = if follows { of_noise.max(of_first).max(of_rest) } else { 0.0 };
         let plain = || follows && !best.noise.hidden() && self.share(here, next) >= BESIDE_A_WEAK;
-        (held_out >= least || (held_out >= 0.0 && plain())).then_some(best)
+        Some(held_out >= least || (held_out >= 0.0 && plain()))
     }
 
     /// What a candidate takes off, as a share of what the effects before it do beside a hum, in squared standard
     /// deviations: in slow noise these tell what no rms does.
-    fn share(&self, here: &Named<'a>, next: &Candidate<'a>) -> f64 {
+    pub(super) fn share(&self, here: &Named<'a>, next: &Candidate<'a>) -> f64 {
         let before = beside_a_hum(here, self.data(&here.noise), self.given());
         (here.fitted.left - next.fitted.left) / (before.fitted.left - here.fitted.left).max(f64::MIN_POSITIVE)
     }

@@ -9,14 +9,15 @@
 //! Known limit: it is cyclic degradation by energy; a rest, or a longer test, would tell.
 
 use super::degradation::{Degradation, Progress};
+use super::work::Work;
 use super::{About, Effect, Factors, Scene, Sizes};
 use crate::parameter::Parameter;
 
 /// Softening in proportion to the heat of a recording.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Adiabatic {
-    /// True where the heat is that of a dashpot, not of the whole force.
-    pub(super) viscous: bool,
+    /// What heats.
+    pub(super) by: Work,
     /// True where damping softens like stiffness.
     pub(super) whole: bool,
 }
@@ -24,8 +25,7 @@ pub(super) struct Adiabatic {
 impl Adiabatic {
     /// Degradation by the same energy.
     fn law(self) -> Degradation {
-        let by = if self.viscous { Progress::Heat } else { Progress::Work };
-        Degradation { by, saturates: false, whole: self.whole }
+        Degradation { by: Progress::Energy(self.by), saturates: false, whole: self.whole }
     }
 }
 
@@ -33,17 +33,19 @@ impl Effect for Adiabatic {
     fn about(&self) -> About {
         About {
             effect: "thermal_softening",
-            law: match (self.viscous, self.whole) {
-                (false, false) => "no cooling, stiffness",
-                (false, true) => "no cooling, whole force",
-                (true, false) => "viscous heat, no cooling, stiffness",
-                (true, true) => "viscous heat, no cooling, whole force",
+            law: match (self.by, self.whole) {
+                (Work::Passed, false) => "no cooling, stiffness",
+                (Work::Passed, true) => "no cooling, whole force",
+                (Work::Net, false) => "dissipated power, no cooling, stiffness",
+                (Work::Net, true) => "dissipated power, no cooling, whole force",
+                (Work::Viscous, false) => "viscous heat, no cooling, stiffness",
+                (Work::Viscous, true) => "viscous heat, no cooling, whole force",
             },
             plain: "the device warms up as it dissipates, softens, and has no time to cool",
-            equation: if self.viscous {
-                "k -> k (1 - s T/T_max), dT/dt = v^2"
-            } else {
-                "k -> k (1 - s T/T_max), dT/dt = |F v|"
+            equation: match self.by {
+                Work::Passed => "k -> k (1 - s T/T_max), dT/dt = |F v|",
+                Work::Net => "k -> k (1 - s T/T_max), dT/dt = F v",
+                Work::Viscous => "k -> k (1 - s T/T_max), dT/dt = v^2",
             },
             reference: "Kalpakidis and Constantinou 2009",
             limit: "it is cyclic degradation by energy; a rest or a longer test would tell",

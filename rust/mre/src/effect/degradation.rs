@@ -6,12 +6,13 @@
 //! | `P_c` | path at which 63 % of it is lost | mm | 1 % to 200 % of the longest path |
 //! | `E_c` | energy at which 63 % of it is lost | N mm (heat: mm^2/s) | 1 % to 200 % of the most energy |
 //!
-//! The energy is the integral of `|F v|` with the force of the base model alone, or the heat of a dashpot, in
-//! proportion to the integral of `v^2`.
+//! The energy is the integral of `|F v|` with the force of the base model alone, or what stays of it in the device,
+//! or the heat of a dashpot, in proportion to the integral of `v^2`.
 //! Reference: Baber and Wen, J. Eng. Mech. Div. 107 (1981) 1069.
 //! Known limit: over a few equal cycles it cannot be told from thermal softening.
 
 use super::operators::integral;
+use super::work::Work;
 use super::{About, Effect, Factors, Scene, Sizes, order_within, within};
 use crate::parameter::Parameter;
 
@@ -21,9 +22,7 @@ pub(super) enum Progress {
     /// The path travelled.
     Path,
     /// The energy put in.
-    Work,
-    /// The heat of a dashpot.
-    Heat,
+    Energy(Work),
 }
 
 /// A law of degradation.
@@ -40,11 +39,13 @@ pub(super) struct Degradation {
 impl Degradation {
     /// Progress since the first sample.
     fn progress(self, scene: &Scene) -> Vec<f64> {
-        let (force, v) = (scene.force, scene.velocity);
         match self.by {
-            Progress::Path => integral(scene, |i| v[i].abs()),
-            Progress::Work => integral(scene, |i| (force[i] * v[i]).abs()),
-            Progress::Heat => integral(scene, |i| v[i] * v[i]),
+            Progress::Path => integral(scene, |i| scene.velocity[i].abs()),
+            Progress::Energy(work) => {
+                let power = work.power(scene);
+                let energy = integral(scene, |i| power[i]);
+                scene.trace(0.0, |most, i| energy[i].max(most))
+            }
         }
     }
 
@@ -52,58 +53,54 @@ impl Degradation {
     fn most(self, sizes: &Sizes) -> f64 {
         match self.by {
             Progress::Path => sizes.path,
-            Progress::Work => sizes.energy,
-            Progress::Heat => sizes.heat(),
+            Progress::Energy(work) => work.most(sizes),
+        }
+    }
+
+    /// Names on the stiffness and on the whole force, and the equation.
+    fn words(self) -> ([&'static str; 2], &'static str) {
+        match (self.by, self.saturates) {
+            (Progress::Path, false) => {
+                (["path, stiffness", "path, whole force"], "k -> k (1 - s P/P_max), P the path travelled")
+            }
+            (Progress::Path, true) => (
+                ["path, saturating, stiffness", "path, saturating, whole force"],
+                "k -> k (1 - s (1 - exp(-P/P_c))), P the path travelled",
+            ),
+            (Progress::Energy(Work::Passed), false) => (
+                ["energy, stiffness", "energy, whole force"],
+                "k -> k (1 - s E/E_max), E the integral of |F v|",
+            ),
+            (Progress::Energy(Work::Passed), true) => (
+                ["energy, saturating, stiffness", "energy, saturating, whole force"],
+                "k -> k (1 - s (1 - exp(-E/E_c))), E the integral of |F v|",
+            ),
+            (Progress::Energy(Work::Net), false) => (
+                ["dissipated energy, stiffness", "dissipated energy, whole force"],
+                "k -> k (1 - s E/E_max), E the largest integral of F v so far",
+            ),
+            (Progress::Energy(Work::Net), true) => (
+                ["dissipated energy, saturating, stiffness", "dissipated energy, saturating, whole force"],
+                "k -> k (1 - s (1 - exp(-E/E_c))), E the largest integral of F v so far",
+            ),
+            (Progress::Energy(Work::Viscous), false) => (
+                ["viscous heat, stiffness", "viscous heat, whole force"],
+                "k -> k (1 - s E/E_max), E the integral of v^2",
+            ),
+            (Progress::Energy(Work::Viscous), true) => (
+                ["viscous heat, saturating, stiffness", "viscous heat, saturating, whole force"],
+                "k -> k (1 - s (1 - exp(-E/E_c))), E the integral of v^2",
+            ),
         }
     }
 }
 
 impl Effect for Degradation {
     fn about(&self) -> About {
-        let (law, equation) = match (self.by, self.saturates, self.whole) {
-            (Progress::Path, false, false) => {
-                ("path, stiffness", "k -> k (1 - s P/P_max), P the path travelled")
-            }
-            (Progress::Path, false, true) => {
-                ("path, whole force", "F -> F (1 - s P/P_max), P the path travelled")
-            }
-            (Progress::Path, true, false) => {
-                ("path, saturating, stiffness", "k -> k (1 - s (1 - exp(-P/P_c))), P the path travelled")
-            }
-            (Progress::Path, true, true) => {
-                ("path, saturating, whole force", "F -> F (1 - s (1 - exp(-P/P_c))), P the path travelled")
-            }
-            (Progress::Work, false, false) => {
-                ("energy, stiffness", "k -> k (1 - s E/E_max), E the integral of |F v|")
-            }
-            (Progress::Work, false, true) => {
-                ("energy, whole force", "F -> F (1 - s E/E_max), E the integral of |F v|")
-            }
-            (Progress::Work, true, false) => {
-                ("energy, saturating, stiffness", "k -> k (1 - s (1 - exp(-E/E_c))), E the integral of |F v|")
-            }
-            (Progress::Work, true, true) => (
-                "energy, saturating, whole force",
-                "F -> F (1 - s (1 - exp(-E/E_c))), E the integral of |F v|",
-            ),
-            (Progress::Heat, false, false) => {
-                ("viscous heat, stiffness", "k -> k (1 - s E/E_max), E the integral of v^2")
-            }
-            (Progress::Heat, false, true) => {
-                ("viscous heat, whole force", "F -> F (1 - s E/E_max), E the integral of v^2")
-            }
-            (Progress::Heat, true, false) => (
-                "viscous heat, saturating, stiffness",
-                "k -> k (1 - s (1 - exp(-E/E_c))), E the integral of v^2",
-            ),
-            (Progress::Heat, true, true) => (
-                "viscous heat, saturating, whole force",
-                "F -> F (1 - s (1 - exp(-E/E_c))), E the integral of v^2",
-            ),
-        };
+        let (names, equation) = self.words();
         About {
             effect: "cyclic_degradation",
-            law,
+            law: names[usize::from(self.whole)],
             plain: "the device gets softer with every cycle and does not recover",
             equation,
             reference: "Baber and Wen 1981",
@@ -116,8 +113,8 @@ impl Effect for Degradation {
         if self.saturates {
             let (name, unit) = match self.by {
                 Progress::Path => ("P_c", "mm"),
-                Progress::Work => ("E_c", "N mm"),
-                Progress::Heat => ("E_c", "mm^2/s"),
+                Progress::Energy(Work::Viscous) => ("E_c", "mm^2/s"),
+                Progress::Energy(_) => ("E_c", "N mm"),
             };
             let most = self.most(sizes);
             shape.push(order_within(name, unit, 0.01 * most, 2.0 * most));

@@ -4,15 +4,19 @@
 //! |---|---|---|---|
 //! | `tau_i` | time constant | s | 0.02 ms to 2 s |
 //! | `tau_u`, `tau_d` | time constants of rise and fall | s | 0.02 ms to 2 s |
+//! | `zeta` | damping ratio of a field that overshoots | - | 0.3 to 0.95 |
 //!
 //! The field is that of the first current at the start.
 //! Reference: Spencer, Dyke, Sain and Carlson, J. Eng. Mech. 123 (1997) 230 (first-order filter);
 //! Yang, Spencer, Carlson and Sain, Eng. Struct. 24 (2002) 309 (coil).
 //! Known limit: the lag of the coil and that of its controller are one.
 
-use super::smooth_lag::smooth_lag;
-use super::{About, Effect, Scene, Sizes, order_within};
+use super::smooth_lag::{smooth_lag, smooth_ringing};
+use super::{About, Effect, Scene, Sizes, order_within, within};
 use crate::parameter::Parameter;
+
+/// Time constants that a fit starts from, s.
+const TAUS: [f64; 6] = [5e-4, 0.003, 0.01, 0.05, 0.2, 0.8];
 
 /// Form of the lag.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,6 +25,8 @@ pub(super) enum FieldLag {
     One,
     /// The same lag twice: coil and controller.
     Twice,
+    /// A second-order lag that overshoots.
+    Ringing,
     /// One for rise and one for fall.
     RiseAndFall,
 }
@@ -43,6 +49,12 @@ impl Effect for FieldLag {
                 reference: "Yang, Spencer, Carlson and Sain 2002",
                 ..one
             },
+            Self::Ringing => About {
+                law: "second order, overshooting",
+                equation: "tau_i^2 d2I_f/dt2 + 2 zeta tau_i dI_f/dt + I_f = I, the device sees I_f",
+                reference: "Yang, Spencer, Carlson and Sain 2002",
+                ..one
+            },
             Self::RiseAndFall => About {
                 law: "rise and fall",
                 equation: "dI_f/dt = (I - I_f)/(tau_u where it rises, tau_d where it falls)",
@@ -59,15 +71,15 @@ impl Effect for FieldLag {
         let tau = |name| order_within(name, "s", 2e-5, 2.0);
         match self {
             Self::One | Self::Twice => vec![tau("tau_i")],
+            Self::Ringing => vec![tau("tau_i"), within("zeta", "", 0.3, 0.95)],
             Self::RiseAndFall => vec![tau("tau_u"), tau("tau_d")],
         }
     }
 
     fn starts(&self, _: &Sizes) -> Vec<Vec<f64>> {
         match self {
-            Self::One | Self::Twice => {
-                vec![vec![5e-4], vec![0.003], vec![0.01], vec![0.05], vec![0.2], vec![0.8]]
-            }
+            Self::One | Self::Twice => TAUS.map(|tau| vec![tau]).into(),
+            Self::Ringing => TAUS.map(|tau| vec![tau, 0.7]).into(),
             Self::RiseAndFall => vec![vec![0.02, 0.1], vec![0.1, 0.02], vec![0.1, 0.5], vec![0.5, 0.1]],
         }
     }
@@ -80,6 +92,7 @@ impl Effect for FieldLag {
                 let once = smooth_lag(time, current, shape[0], current[0]);
                 smooth_lag(time, &once, shape[0], current[0])
             }
+            Self::Ringing => smooth_ringing(time, current, 1.0 / shape[0], shape[1], current[0]),
             Self::RiseAndFall => scene.trace(current[0], |field, i| {
                 let target = 0.5 * (current[i - 1] + current[i]);
                 let tau = if target > field { shape[0] } else { shape[1] };

@@ -46,6 +46,7 @@ mod stribeck;
 mod tests;
 mod thermal;
 mod with_current;
+mod work;
 
 pub use catalogue::{CATALOGUE, named};
 pub(crate) use drift::{DRIFT, MEAN};

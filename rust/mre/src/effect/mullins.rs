@@ -6,11 +6,13 @@
 //! | `x_m` | displacement whose energy `x_m^2` is the constant of the pseudo-elastic law | mm | 3 % to 150 % of the stroke |
 //! | b | growth of that constant with the largest energy | - | 0 to 1 |
 //! | `x_c` | largest displacement at which 63 % is lost | mm | 3 % to 200 % of the stroke |
-//! | p | power of the largest displacement | - | 0.3 to 4 |
+//! | p | power of the largest displacement, or of the share of the distance from it | - | 0.3 to 4 |
+//! | a | power of the largest displacement beside that of the distance | - | 0 to 2 |
 //!
 //! The energy is taken as that of a linear spring, proportional to `x^2`. M is the largest displacement so far.
 //! Reference: Ogden and Roxburgh, Proc. R. Soc. A 455 (1999) 2861; Simo, Comput. Methods Appl. Mech. Eng. 60
-//! (1987) 153 (damage by the largest strain).
+//! (1987) 153 (damage by the largest strain); Zuniga and Beatty, Int. J. Eng. Sci. 40 (2002) 2265 (by the distance
+//! from it).
 //! Known limit: after the first cycle at a constant amplitude it is part of k0.
 
 use super::{About, Effect, Factors, Scene, Sizes, order_within, within};
@@ -25,6 +27,8 @@ pub(super) enum Softening {
     Largest,
     /// The largest displacement, as a power.
     Power,
+    /// The distance from the largest displacement, as a power of its share.
+    Distance,
 }
 
 /// A law of softening, on the stiffness or on the whole force.
@@ -77,6 +81,12 @@ impl Effect for Mullins {
                 reference: "Simo 1987",
                 ..pseudo_elastic
             },
+            Softening::Distance => About {
+                law: law("reloading, stiffness", "reloading, whole force"),
+                equation: "k -> k (1 - s (M/X)^a (1 - |x|/M)^p), M the largest |x| so far, X the largest of all",
+                reference: "Zuniga and Beatty 2002",
+                ..pseudo_elastic
+            },
         }
     }
 
@@ -89,6 +99,7 @@ impl Effect for Mullins {
             }
             Softening::Largest => vec![order_within("x_c", "mm", 0.03 * x, 2.0 * x)],
             Softening::Power => vec![order_within("p", "", 0.3, 4.0)],
+            Softening::Distance => vec![within("a", "", 0.0, 2.0), order_within("p", "", 0.3, 4.0)],
         });
         shape
     }
@@ -101,6 +112,9 @@ impl Effect for Mullins {
             }
             Softening::Largest => [0.08, 0.25, 0.8].iter().map(|share| vec![0.2, share * x]).collect(),
             Softening::Power => vec![vec![0.2, 0.5], vec![0.2, 1.0], vec![0.2, 2.5]],
+            Softening::Distance => {
+                vec![vec![0.2, 0.1, 1.0], vec![0.2, 0.1, 2.0], vec![0.2, 1.0, 1.0], vec![0.2, 0.5, 0.5]]
+            }
         }
     }
 
@@ -113,6 +127,10 @@ impl Effect for Mullins {
             }
             Softening::Largest => -(-m / shape[1]).exp_m1(),
             Softening::Power => (m / scene.sizes.displacement).powf(shape[1]),
+            Softening::Distance if m > 0.0 => {
+                (m / scene.sizes.displacement).powf(shape[1]) * (1.0 - x.abs() / m).powf(shape[2])
+            }
+            Softening::Distance => 0.0,
         };
         let lost: Vec<f64> = x.iter().zip(largest_past(scene)).map(lost).collect();
         Some(Factors::losing(shape[0], &lost, self.whole))

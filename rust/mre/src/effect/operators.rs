@@ -5,7 +5,12 @@ pub(super) use crate::kernel::relaxation::lag;
 
 /// Play of half width `r`: follows the input once the slack is taken up.
 pub(super) fn play(input: &[f64], r: f64) -> Vec<f64> {
-    let mut p = input[0];
+    play_from(input[0], input, r)
+}
+
+/// The same, at `start` before the first sample.
+pub(super) fn play_from(start: f64, input: &[f64], r: f64) -> Vec<f64> {
+    let mut p = start;
     input
         .iter()
         .map(|x| {

@@ -7,13 +7,14 @@
 //! | `i_r` | half width of the play of the current, or of the widest of many | A | 1 % to 50 % of its span |
 //!
 //! The remanent current q is the play of the current less the current, or the largest past current less the
-//! current. The device starts demagnetised to the first current. Either all that follows the current in the base
-//! model follows the remanent one too, or stiffness and damping do in their own measure.
+//! current. The device starts demagnetised to the first current, or to zero, from which it was raised to the first.
+//! Either all that follows the current in the base model follows the remanent one too, or stiffness and damping do
+//! in their own measure.
 //! Reference: Jiles and Atherton, J. Magn. Magn. Mater. 61 (1986) 48; Krasnosel'skii and Pokrovskii, Systems with
 //! Hysteresis, 1989 (play); Mayergoyz, Mathematical Models of Hysteresis, 1991 (plays of many widths).
 //! Known limit: on a current that only rises or only falls it is drift or field dependence.
 
-use super::operators::play;
+use super::operators::{play, play_from};
 use super::{About, Effect, Scene, Sizes, order_within, signed, within};
 use crate::parameter::Parameter;
 
@@ -28,16 +29,26 @@ pub(super) enum Remanence {
     LargestSeen,
     /// Plays of many widths, seen by all of the base model.
     PlaysSeen,
+    /// The same, where the first current was reached from zero.
+    RaisedPlaysSeen,
+    /// The same, whose first rise follows the current.
+    FollowingPlaysSeen,
 }
 
 /// Widths of plays.
 const WIDTHS: usize = 6;
 
-/// Mean of plays whose half widths spread evenly up to `widest`.
-fn plays(current: &[f64], widest: f64) -> Vec<f64> {
+/// Mean over half widths that spread evenly up to `widest`.
+fn mean_of_widths(widest: f64, of: impl Fn(f64) -> f64) -> f64 {
+    let widths = (1..=WIDTHS).map(|k| widest * k as f64 / WIDTHS as f64);
+    widths.map(of).sum::<f64>() / WIDTHS as f64
+}
+
+/// Mean of plays of such widths, all at `start` before the first sample.
+fn plays(current: &[f64], widest: f64, start: f64) -> Vec<f64> {
     let mut mean = vec![0.0; current.len()];
     for k in 1..=WIDTHS {
-        let one = play(current, widest * k as f64 / WIDTHS as f64);
+        let one = play_from(start, current, widest * k as f64 / WIDTHS as f64);
         mean.iter_mut().zip(one).for_each(|(sum, p)| *sum += p / WIDTHS as f64);
     }
     mean
@@ -49,7 +60,13 @@ impl Remanence {
         let width = width.copied().unwrap_or_default();
         let past = match self {
             Self::Play => play(current, width),
-            Self::PlaysSeen => plays(current, width),
+            Self::PlaysSeen => plays(current, width, current[0]),
+            Self::RaisedPlaysSeen => plays(current, width, 0.0),
+            Self::FollowingPlaysSeen => {
+                let slack = |i: f64| mean_of_widths(width, |r| i.clamp(-r, r));
+                let plays = plays(current, width, 0.0);
+                plays.iter().zip(current).map(|(p, i)| p + slack(*i)).collect()
+            }
             Self::Largest | Self::LargestSeen => {
                 scene.trace(current[0], |largest, i| largest.max(current[i]))
             }
@@ -59,7 +76,7 @@ impl Remanence {
 
     /// True where all of the base model sees it.
     fn seen(self) -> bool {
-        matches!(self, Self::LargestSeen | Self::PlaysSeen)
+        !matches!(self, Self::Play | Self::Largest)
     }
 }
 
@@ -96,6 +113,13 @@ impl Effect for Remanence {
                 reference: "Mayergoyz 1991; Krasnosel'skii and Pokrovskii 1989",
                 ..play
             },
+            Self::RaisedPlaysSeen => About { law: "plays, seen, from zero", ..Self::PlaysSeen.about() },
+            Self::FollowingPlaysSeen => About {
+                law: "plays, seen, first rise followed",
+                equation: "the device sees I + r q, q = mean of plays of the current up to i_r, and of the current \
+                           within i_r, less the current",
+                ..Self::PlaysSeen.about()
+            },
         }
     }
 
@@ -115,7 +139,7 @@ impl Effect for Remanence {
             Self::Play => vec![width],
             Self::Largest => Vec::new(),
             Self::LargestSeen => vec![share],
-            Self::PlaysSeen => vec![share, width],
+            _ => vec![share, width],
         }
     }
 
@@ -125,7 +149,7 @@ impl Effect for Remanence {
             Self::Play => widths.map(|width| vec![width]).into(),
             Self::Largest => vec![Vec::new()],
             Self::LargestSeen => vec![vec![0.1]],
-            Self::PlaysSeen => widths.map(|width| vec![0.2, width]).into(),
+            _ => widths.map(|width| vec![0.2, width]).into(),
         }
     }
 

@@ -88,6 +88,9 @@ impl Scene<'_> {
 /// Sizes are at least this.
 const LEAST: f64 = 1e-9;
 
+/// The energy that stays in a device is at least this share of what passes through it.
+const LEAST_DISSIPATED: f64 = 0.02;
+
 /// Sizes over a campaign.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sizes {
@@ -105,8 +108,10 @@ pub struct Sizes {
     pub total: f64,
     /// Longest travelled path in a recording, mm.
     pub path: f64,
-    /// Most energy dissipated in a recording: the largest integral of `|F v|`, N mm.
+    /// Most energy that passed through the device in a recording: the largest integral of `|F v|`, N mm.
     pub energy: f64,
+    /// Most energy that stayed in it: the largest integral of `F v`, N mm.
+    pub dissipated: f64,
     /// Lowest and highest current, A, where it is known.
     pub current: Option<(f64, f64)>,
     /// True where the current changes inside a recording, or between recordings that share the parameters of
@@ -129,6 +134,7 @@ impl Sizes {
             total: 0.0,
             path: 0.0,
             energy: 0.0,
+            dissipated: 0.0,
             current: None,
             current_varies: false,
             quantum: super::quantisation::quantum(&forces),
@@ -145,9 +151,11 @@ impl Sizes {
             sizes.duration = sizes.duration.max(duration);
             sizes.total += duration;
             let path: f64 = x.windows(2).map(|p| (p[1] - p[0]).abs()).sum();
-            let energy: f64 = x.windows(2).zip(force).map(|(p, f)| (f * (p[1] - p[0])).abs()).sum();
+            let work =
+                || x.windows(2).zip(force.windows(2)).map(|(x, f)| 0.5 * (f[0] + f[1]) * (x[1] - x[0]));
             sizes.path = sizes.path.max(path);
-            sizes.energy = sizes.energy.max(energy);
+            sizes.energy = sizes.energy.max(work().map(f64::abs).sum());
+            sizes.dissipated = sizes.dissipated.max(work().sum());
             let (low, high) = match r.current() {
                 Condition::Missing => continue,
                 Condition::Constant(i) => (*i, *i),
@@ -185,6 +193,7 @@ impl Sizes {
         {
             *size = size.max(LEAST);
         }
+        self.dissipated = self.dissipated.max(LEAST_DISSIPATED * self.energy);
         self
     }
 }

@@ -4,6 +4,8 @@
 //! Between samples stands the monotone cubic of Fritsch and Carlson, SIAM J. Numer. Anal. 17 (1980) 238, with the
 //! slopes of Fritsch and Butland, SIAM J. Sci. Stat. Comput. 5 (1984) 300: no overshoot beside a jump.
 
+use nalgebra::{Complex, ComplexField};
+
 use crate::kernel::relaxation::runs;
 
 /// Terms of the series for a short step.
@@ -11,18 +13,37 @@ const TERMS: usize = 16;
 
 /// `y' = (u - y) / tau` from `start`.
 pub(super) fn smooth_lag(time: &[f64], input: &[f64], tau: f64, start: f64) -> Vec<f64> {
+    relaxed(time, input, 1.0 / tau, start)
+}
+
+/// `y'' + 2 zeta w y' + w^2 y = w^2 u` from rest at `start`, `zeta` below one: two lags of conjugate complex rates.
+pub(super) fn smooth_ringing(time: &[f64], input: &[f64], w: f64, zeta: f64, start: f64) -> Vec<f64> {
+    let rate = Complex::new(zeta, (1.0 - zeta * zeta).sqrt()) * w;
+    let share = rate.conj() / (rate.conj() - rate);
+    let lagged = relaxed(time, input, rate, Complex::from(start));
+    lagged.into_iter().map(|y| 2.0 * (share * y).re).collect()
+}
+
+/// `y' = rate (u - y)` from `start`.
+fn relaxed<N: ComplexField<RealField = f64> + Copy>(
+    time: &[f64],
+    input: &[f64],
+    rate: N,
+    start: N,
+) -> Vec<N> {
     let slopes = slopes(time, input);
     let mut y = start;
     let mut out = Vec::with_capacity(input.len());
     out.push(y);
     for (from, to) in runs(time) {
         let h = time[from] - time[from - 1];
-        let (decay, weights) = ((-h / tau).exp(), weights(h / tau));
+        let q = rate.scale(h);
+        let (decay, weights) = ((-q).exp(), weights(q));
         for i in from..to {
             let (a, b) = (input[i - 1], input[i]);
             let (m, n) = (h * slopes[i - 1], h * slopes[i]);
             let cubic = [a, m, 3.0 * (b - a) - 2.0 * m - n, m + n - 2.0 * (b - a)];
-            y = decay * y + cubic.iter().zip(weights).map(|(c, w)| c * w).sum::<f64>();
+            y = cubic.iter().zip(weights).fold(decay * y, |sum, (c, w)| sum + w.scale(*c));
             out.push(y);
         }
     }
@@ -31,19 +52,19 @@ pub(super) fn smooth_lag(time: &[f64], input: &[f64], tau: f64, start: f64) -> V
 
 /// Weights of the powers 0 to 3 of the share of a step, over a step of so many time constants `q`: the integral of
 /// `q exp(-q (1 - s)) s^k`.
-fn weights(q: f64) -> [f64; 4] {
-    if q > 1.0 {
+fn weights<N: ComplexField<RealField = f64> + Copy>(q: N) -> [N; 4] {
+    if q.modulus() > 1.0 {
         let mut weights = [-(-q).exp_m1(); 4];
         for k in 1..4 {
-            weights[k] = 1.0 - k as f64 / q * weights[k - 1];
+            weights[k] = N::one() - weights[k - 1].scale(k as f64) / q;
         }
         return weights;
     }
     std::array::from_fn(|k| {
-        let mut term = q / (k + 1) as f64;
+        let mut term = q.unscale((k + 1) as f64);
         let mut sum = term;
         for j in 1..TERMS {
-            term *= -q / (k + 1 + j) as f64;
+            term *= -q.unscale((k + 1 + j) as f64);
             sum += term;
         }
         sum
@@ -89,6 +110,20 @@ mod tests {
     }
 
     #[test]
+    fn a_ringing_lag_rises_as_its_closed_form() {
+        let time: Vec<f64> = (0..400).map(|i| 0.005 * f64::from(i)).collect();
+        for (w, zeta) in [(800.0, 0.5), (30.0, 0.9), (5.0, 0.3)] {
+            let lagged = smooth_ringing(&time, &vec![1.0; time.len()], w, zeta, 0.0);
+            let ring: f64 = (1.0_f64 - zeta * zeta).sqrt();
+            for (t, y) in time.iter().zip(&lagged) {
+                let phase = w * ring * t;
+                let closed = 1.0 - (-zeta * w * t).exp() * (phase.cos() + zeta / ring * phase.sin());
+                assert!((y - closed).abs() < 1e-12, "w {w}, t {t}: {y} {closed}");
+            }
+        }
+    }
+
+    #[test]
     fn a_jump_leaves_what_lies_before_it_alone() {
         let time: Vec<f64> = (0..20).map(|i| 0.01 * f64::from(i)).collect();
         let input: Vec<f64> = (0..20).map(|i| if i < 10 { 1.0 } else { 3.0 }).collect();
@@ -99,7 +134,7 @@ mod tests {
 
     #[test]
     fn both_ways_to_the_weights_agree() {
-        let (short, long) = (weights(1.0), weights(1.0 + 1e-12));
+        let (short, long) = (weights(1.0_f64), weights(1.0_f64 + 1e-12));
         for (a, b) in short.iter().zip(long) {
             assert!((a - b).abs() < 1e-11);
         }

@@ -6,12 +6,13 @@
 //! | tau | time over which the device cools | s | 1 to 3000 |
 //!
 //! The reference is the temperature at the end of the longest recording under a constant power with the most
-//! energy of a recording. The heat is `|F v|` of the base model alone, or proportional to `v^2`.
+//! energy of a recording. The heat is `|F v|` or `F v` of the base model alone, or proportional to `v^2`.
 //! A factor never falls below 0.05.
 //! Reference: Kalpakidis and Constantinou, J. Struct. Eng. 135 (2009) 1394.
 //! Known limit: where the recordings are short against tau it is cyclic degradation by energy.
 
 use super::operators::lag;
+use super::work::Work;
 use super::{About, Effect, Factors, Scene, Sizes, order_within, orders, within};
 use crate::parameter::Parameter;
 
@@ -21,8 +22,8 @@ const COOLING: (f64, f64) = (1.0, 3000.0);
 /// A law of thermal softening.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Thermal {
-    /// True where the heat is that of a dashpot, not of the whole force.
-    pub(super) viscous: bool,
+    /// What heats.
+    pub(super) by: Work,
     /// True for an exponential law, false for a linear one.
     pub(super) exponential: bool,
     /// True where damping softens like stiffness.
@@ -33,11 +34,7 @@ impl Thermal {
     /// Excess temperature over its reference.
     fn temperature(self, scene: &Scene, tau: f64) -> Vec<f64> {
         let sizes = scene.sizes;
-        let (power, most): (Vec<f64>, f64) = if self.viscous {
-            (scene.velocity.iter().map(|v| v * v).collect(), sizes.heat())
-        } else {
-            (scene.force.iter().zip(scene.velocity).map(|(f, v)| (f * v).abs()).collect(), sizes.energy)
-        };
+        let (power, most) = (self.by.power(scene), self.by.most(sizes));
         // The lag is T / tau; a constant power makes it grow to the share below.
         let share = -(-sizes.duration / tau).exp_m1();
         let reference = most / sizes.duration * share;
@@ -51,25 +48,29 @@ impl Thermal {
 
 impl Effect for Thermal {
     fn about(&self) -> About {
-        let law = match (self.viscous, self.exponential, self.whole) {
-            (false, false, false) => "linear, stiffness",
-            (false, false, true) => "linear, whole force",
-            (false, true, false) => "exponential, stiffness",
-            (false, true, true) => "exponential, whole force",
-            (true, false, false) => "viscous heat, stiffness",
-            (true, false, true) => "viscous heat, whole force",
-            (true, true, false) => "viscous heat, exponential, stiffness",
-            (true, true, true) => "viscous heat, exponential, whole force",
+        let law = match (self.by, self.exponential) {
+            (Work::Passed, false) => ["linear, stiffness", "linear, whole force"],
+            (Work::Passed, true) => ["exponential, stiffness", "exponential, whole force"],
+            (Work::Net, false) => ["dissipated power, stiffness", "dissipated power, whole force"],
+            (Work::Net, true) => {
+                ["dissipated power, exponential, stiffness", "dissipated power, exponential, whole force"]
+            }
+            (Work::Viscous, false) => ["viscous heat, stiffness", "viscous heat, whole force"],
+            (Work::Viscous, true) => {
+                ["viscous heat, exponential, stiffness", "viscous heat, exponential, whole force"]
+            }
         };
         About {
             effect: "thermal_softening",
-            law,
+            law: law[usize::from(self.whole)],
             plain: "the device warms up as it dissipates, softens, and recovers as it cools",
-            equation: match (self.viscous, self.exponential) {
-                (false, false) => "k -> k (1 - s T/T_r), dT/dt = |F v| - T/tau",
-                (false, true) => "k -> k exp(-s T/T_r), dT/dt = |F v| - T/tau",
-                (true, false) => "k -> k (1 - s T/T_r), dT/dt = v^2 - T/tau",
-                (true, true) => "k -> k exp(-s T/T_r), dT/dt = v^2 - T/tau",
+            equation: match (self.by, self.exponential) {
+                (Work::Passed, false) => "k -> k (1 - s T/T_r), dT/dt = |F v| - T/tau",
+                (Work::Passed, true) => "k -> k exp(-s T/T_r), dT/dt = |F v| - T/tau",
+                (Work::Net, false) => "k -> k (1 - s T/T_r), dT/dt = F v - T/tau",
+                (Work::Net, true) => "k -> k exp(-s T/T_r), dT/dt = F v - T/tau",
+                (Work::Viscous, false) => "k -> k (1 - s T/T_r), dT/dt = v^2 - T/tau",
+                (Work::Viscous, true) => "k -> k exp(-s T/T_r), dT/dt = v^2 - T/tau",
             },
             reference: "Kalpakidis and Constantinou 2009",
             limit: "where recordings are short against tau it is cyclic degradation by energy",

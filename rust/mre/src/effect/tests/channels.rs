@@ -176,3 +176,16 @@ fn a_remanent_current_stays_as_the_current_falls() {
     close(plays[150], current[150] - 0.5 * 0.35, 1e-12);
     close(plays[390], current[390] + 0.5 * 0.35, 1e-12);
 }
+
+#[test]
+fn a_device_raised_from_zero_lags_from_the_start_unless_its_first_rise_is_followed() {
+    let time = grid(1e-2, 4.0);
+    let current: Vec<f64> = time.iter().map(|t| 1.0 + 0.5 * t).collect();
+    let stage = Stage::new(time, |t| (1.0 + 0.1 * t, 0.1), Some(current.clone()));
+    let seen = |name| law("field_remanence", name).current(&stage.scene(), &[0.5, 0.6]).unwrap();
+    for i in [0, 150, 400] {
+        close(seen("plays, seen, from zero")[i], current[i] - 0.5 * 0.35, 1e-12);
+        close(seen("plays, seen, first rise followed")[i], current[i], 1e-12);
+    }
+    close(seen("plays, seen")[0], current[0], 1e-12);
+}

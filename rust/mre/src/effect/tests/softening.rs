@@ -21,6 +21,17 @@ fn pseudo_elastic_softening_is_nothing_on_the_virgin_curve() {
 }
 
 #[test]
+fn reloading_loses_by_the_distance_from_the_largest_strain() {
+    let stage = Stage::sine(2.0, 0.5, 2.0);
+    let law = law("mullins_softening", "reloading, stiffness");
+    let factor = law.factors(&stage.scene(), &[0.4, 1.0, 2.0]).unwrap().stiffness;
+    assert!(factor[..=500].iter().all(|f| *f == 1.0), "first loading");
+    // Half way back from the first peak: (1 - sin 45 deg)^2 of the share.
+    close(factor[750], 1.0 - 0.4 * (1.0 - 0.5_f64.sqrt()).powi(2), 1e-6);
+    close(factor[1000], 0.6, 1e-9);
+}
+
+#[test]
 fn degradation_reaches_its_share_at_the_longest_path() {
     let stage = Stage::sine(2.0, 1.0, 5.0);
     for name in ["path, stiffness", "energy, stiffness"] {
@@ -28,6 +39,17 @@ fn degradation_reaches_its_share_at_the_longest_path() {
         close(factor[5000], 0.7, 2e-3);
         close(factor[2500], 0.85, 2e-3);
     }
+}
+
+#[test]
+fn what_stays_of_the_work_is_lost_for_good_and_what_is_given_back_is_not() {
+    let stage = Stage::sine(2.0, 1.0, 5.0);
+    // 5 x + 0.3 v: the dashpot takes 0.3 w^2 A^2 / 2 a second, the spring holds 10 N mm at each peak.
+    let heat = 0.6 * TAU * TAU;
+    let wear = law("cyclic_degradation", "dissipated energy, stiffness").factors(&stage.scene(), &[0.3]);
+    close(wear.unwrap().stiffness[5000], 1.0 - 0.3 * (4.75 * heat + 10.0) / (5.0 * heat), 1e-3);
+    let warm = law("thermal_softening", "dissipated power, stiffness").factors(&stage.scene(), &[0.3, 1e3]);
+    close(warm.unwrap().stiffness[5000], 0.7, 1e-3);
 }
 
 #[test]
