@@ -54,12 +54,6 @@ pub struct Prospect {
     pub chances: Vec<(&'static str, f64)>,
 }
 
-impl Prospect {
-    fn worth(&self) -> f64 {
-        self.chances.iter().map(|(_, chance)| chance).sum()
-    }
-}
-
 /// The proposed excitation among all that were tried.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NextTest {
@@ -109,11 +103,21 @@ pub(super) fn propose(
             Some(Prospect { kind: *kind, frequency, amplitude, chances })
         })
         .collect();
-    // The plainest of those that resolve about as much as the best.
-    let most = prospects.iter().map(Prospect::worth).fold(0.0, f64::max);
-    let best = prospects.iter().position(|p| p.worth() >= most - WORTH)?;
-    let chosen = prospects.remove(best);
-    prospects.sort_by(|a, b| b.worth().total_cmp(&a.worth()));
+    // What is in doubt comes first, then what is hidden; of those that tell about as much, the plainest.
+    let worth = |p: &Prospect, rival: bool| -> f64 {
+        let is_rival = |id: &str| doubt.rivals.iter().any(|(known, _)| *known == id);
+        p.chances.iter().filter(|(id, _)| is_rival(id) == rival).map(|(_, chance)| chance).sum()
+    };
+    let mut best: Vec<usize> = (0..prospects.len()).collect();
+    for rival in [true, false] {
+        let most = best.iter().map(|i| worth(&prospects[*i], rival)).fold(0.0, f64::max);
+        best.retain(|i| worth(&prospects[*i], rival) >= most - WORTH);
+    }
+    let chosen = prospects.remove(*best.first()?);
+    prospects.sort_by(|a, b| {
+        let by = |rival| worth(b, rival).total_cmp(&worth(a, rival));
+        by(true).then_with(|| by(false))
+    });
     prospects.insert(0, chosen);
     Some(NextTest { limits, prospects })
 }
