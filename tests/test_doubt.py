@@ -10,7 +10,7 @@ import pytest
 from missing import SINES, campaign, record, with_series, write_all
 from mre_core import InputError, Recording, words
 from mre_core.cli.main import main
-from mre_core.next_test import command
+from mre_core.next_test import command, read_proposal
 
 STROKE = max(amplitude for _, amplitude in SINES)
 
@@ -85,6 +85,29 @@ def test_the_command_keeps_its_limits(one_frequency: mre_core.Diagnosis) -> None
     for wrong in refused:
         with pytest.raises(InputError):
             command(one_frequency.next_test, **wrong)
+
+
+def test_a_test_is_proposed_within_the_limits_given(tmp_path: Path) -> None:
+    """The best of what the machine can do, which may be more than was tested."""
+    files = write_all(
+        tmp_path, [record(1.0, 4.0, name="a").cut(3.0, 11.0), record(1.0, 2.0, name="b").cut(3.0, 11.0)]
+    )
+    out = tmp_path / "result"
+    given = [*map(str, files), "--base", "sinh", "--out", str(out), "--seed", "1", "--quiet"]
+    limits = {"stroke": 6.0, "speed": 20.0, "highest": 8.0, "duration": 12.0}
+    own = [word for name, value in limits.items() for word in ("--limit", f"{name}={value}")]
+    assert main(["diagnose", *given, *own]) == 0
+    proposal = read_proposal(out)
+    for name, value in zip(
+        ("stroke_mm", "speed_mm_s", "highest_hz", "duration_s"), limits.values(), strict=True
+    ):
+        assert proposal["limits"][name] == value
+    signal = command(proposal)
+    assert np.abs(signal.displacement).max() <= 6.0 + 1e-9
+    assert np.abs(np.diff(signal.displacement) / np.diff(signal.time)).max() <= 20 + 1e-6
+    assert signal.time[-1] == pytest.approx(12.0, abs=0.02)
+    for kind in (proposal, *proposal["others"]):
+        assert kind["frequency_hz"] <= 8.0
 
 
 def test_next_test_from_the_command_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

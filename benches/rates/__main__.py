@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import judge
+import located
 import resolve
 from mre_core.trial.plan import JUDGING
 from mre_core.trial.workers import spread
@@ -30,7 +31,7 @@ def main() -> None:
     given.add_argument("--out", type=Path, default=OUT)
     options = given.parse_args()
     found: list[Any] = []
-    run = resolve.run if options.experiment == "doubts" else judge.run
+    run = {"doubts": resolve.run, "located": located.run}.get(options.experiment, judge.run)
 
     def take(outcome: Any) -> None:
         found.append(outcome)

@@ -22,6 +22,11 @@ DISPLACEMENT_NOISE = 0.003
 """mm, on every third null."""
 LITTLE_TOLD = ("twelve", "steady", "single_staircase", "earthquakes")
 """Programmes of excitation that leave effects in doubt."""
+PLACED = {
+    **{effect: laws_of(effect) for effect in ("stiffness_jump", "end_stop", "force_clipping")},
+    "unknown": ["bump"],
+}
+"""Effects that have a place, with their laws."""
 LEVEL = 0.01
 """Stated rate of false alarms."""
 
@@ -129,6 +134,14 @@ def doubts(rng: np.random.Generator) -> Iterator[Trial]:
         )
 
 
+def located(rng: np.random.Generator) -> Iterator[Trial]:
+    """Effects that have a place, with every law of theirs, at the three strengths."""
+    for turn in cycle(range(len(STRENGTHS))):
+        for place, (effect, laws) in enumerate(PLACED.items()):
+            law = str(rng.choice(laws))
+            yield _trial(rng, (effect,), (law,), STRENGTHS[(place + turn) % len(STRENGTHS)])
+
+
 def _crossed(strengths: tuple[float, ...]) -> Iterator[tuple[float, str]]:
     """Every effect at a strength, the strengths in turn; each effect meets every strength."""
     for turn in cycle(range(len(strengths))):
@@ -137,7 +150,8 @@ def _crossed(strengths: tuple[float, ...]) -> Iterator[tuple[float, str]]:
 
 
 PLANS: dict[str, Callable[[np.random.Generator], Iterator[Trial]]] = {
-    plan.__name__: plan for plan in (singles, others, pairs, removed, unknown, nulls, weak, doubts, triples)
+    plan.__name__: plan
+    for plan in (singles, others, pairs, removed, unknown, nulls, weak, doubts, triples, located)
 }
 
 

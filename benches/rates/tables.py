@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterable, Sequence
 
 import numpy as np
 from judge import Outcome
+from located import Located
 from mre_core.trial.rates import Rate
 from plans import LEVEL
 from resolve import Resolved
@@ -171,6 +172,22 @@ def resolved(found: Sequence[Resolved]) -> str:
     )
 
 
+def places(found: Sequence[Located]) -> str:
+    """How often the first place told is where the effect is, by effect."""
+    groups: dict[object, list[Located]] = {"all": list(found)}
+    for one in found:
+        case = one.trial.case
+        groups.setdefault(case.laws[0] if case.effects[0] == "unknown" else case.effects[0], []).append(one)
+    rows = []
+    for what, own in groups.items():
+        other = Counter(one.told or "no place" for one in own if not one.right)
+        said = ", ".join(f"{kind} ({n})" for kind, n in other.most_common())
+        rows.append((what, len(own), Rate(sum(one.right for one in own), len(own)), said))
+    return table(
+        ("concealed", "cases", "first place holds it, and is narrow", "kind of the first place else"), rows
+    )
+
+
 TABLES: dict[str, Callable[..., str]] = {
     "singles": naming,
     "others": naming,
@@ -181,4 +198,5 @@ TABLES: dict[str, Callable[..., str]] = {
     "nulls": nulls,
     "weak": power,
     "doubts": resolved,
+    "located": places,
 }

@@ -209,6 +209,8 @@ def diagnose_recordings(
     given: Sequence[ArrayLike] | None = None,
     base_effects: Sequence[tuple[str, str, Sequence[float]]] = ...,
     without: Sequence[str] = ...,
+    limits: Mapping[str, float] = ...,
+    limit_current: tuple[float, float] | None = None,
     blank: int = 0,
     threads: int | None = None,
     on_stage: Callable[[str], Any] | None = None,

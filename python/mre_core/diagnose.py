@@ -2,7 +2,7 @@
 
 import json
 import os
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from numbers import Real
 from typing import Any, Literal
@@ -27,6 +27,7 @@ from .findings import (
     unknown_of,
 )
 from .grouping import check_once, each_of, group_by_current, labels
+from .limits import limits_for
 from .minimise import ON_INTERRUPT, draw_seed
 from .model import SIMULATED, Level, Model, simulate
 from .suitable import check_recordings
@@ -61,6 +62,7 @@ def diagnose(
     false_alarm: float = 0.01,
     fixed: bool = False,
     without: Sequence[str] = (),
+    limits: Mapping[str, float | tuple[float, float]] | None = None,
     blank: int = 0,
     threads: int | None = None,
     on_stage: Callable[[str], Any] | None = None,
@@ -87,6 +89,10 @@ def diagnose(
         like missing physics: of a model without effects, `refitted` says what fitted ones would leave.
     without : sequence of str
         Ids of effects that are ruled out, and not to be named.
+    limits : mapping, optional
+        Of the next test that is proposed: ``stroke`` in mm, ``speed`` in mm/s, ``highest`` frequency in Hz,
+        ``duration`` in s, ``current`` (lowest and highest, A). What was tested where not given; 10 Hz or a
+        twentieth of the sampling rate for the highest frequency.
     blank : int
         Diagnose so many simulations of the fitted base model with its fitted noise as well: how often an
         effect is named where nothing is missing (`blank` of the result).
@@ -131,6 +137,7 @@ def diagnose(
         false_alarm=float(false_alarm),
         seed=seed,
         without=ruled_out,
+        **limits_for({} if limits is None else limits, everything),
         blank=blank,
         threads=workers(threads),
         on_stage=on_stage,

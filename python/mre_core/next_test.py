@@ -10,12 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _core
-from .errors import InputError, shown
-from .stored import conform, number, read_json
+from .errors import InputError
+from .limits import LEAST, ends, limited
+from .stored import conform, read_json
 
 MOST_SAMPLES = 10_000_000
-LEAST, MOST = 1e-6, 1e9
-"""Of every limit: nine digits behind the point are written."""
 PROPOSAL: Final[Any] = {"excitation": str, "limits": {}}
 
 
@@ -74,11 +73,9 @@ def command(
         "rate": (rate, "rate_hz"),
     }
     limits = {
-        name: number(known.get(key) if value is None else value, name) for name, (value, key) in given.items()
+        name: limited(name, known.get(key) if value is None else value)
+        for name, (value, key) in given.items()
     }
-    for name, value in limits.items():
-        if not LEAST <= value <= MOST:
-            raise InputError(f"{name} is {shown(value)}", wanted=f"a number from {LEAST:g} to {MOST:g}")
     if limits["highest"] > limits["rate"] / 2:
         raise InputError(
             f"highest is {limits['highest']:g} Hz at {limits['rate']:g} samples a second",
@@ -97,20 +94,12 @@ def command(
     excitation, currents = str(proposal.get("excitation")), known.get("current_A")
     if current is not None:
         currents = current
-    ends = None if currents is None else _ends(currents)
-    time, displacement, steps = _core.excitation(excitation, **limits, current=ends)
+    range_of_current = None if currents is None else ends(currents)
+    time, displacement, steps = _core.excitation(excitation, **limits, current=range_of_current)
     if (far := np.abs(displacement).max()) < LEAST:
         found = f"the signal moves {far:g} mm with speed {limits['speed']:g} mm/s"
         raise InputError(found, wanted=f"at least {LEAST:g} mm: a larger speed or a lower highest frequency")
     return Command(excitation, time, displacement, steps)
-
-
-def _ends(current: Any) -> tuple[float, float]:
-    if isinstance(current, list | tuple) and len(current) == 2:
-        low, high = (number(end, "current_A") for end in current)
-        if -MOST <= low <= high <= MOST:
-            return low, high
-    raise InputError(f"current_A is {shown(current)}", wanted="the lowest and the highest current")
 
 
 def read_proposal(folder: str | os.PathLike[str]) -> Mapping[str, Any]:

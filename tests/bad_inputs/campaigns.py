@@ -14,6 +14,7 @@ INSPECT = ["inspect", "a.csv"]
 LOOPS = ["loops", "a.csv", "--out", "new"]
 LAWS = ["laws", "a.csv", "--model", "sinh", "--out", "new"]
 BATCH = ["batch", "d", "--model", "sinh", "--out", "new"]
+DIAGNOSE = ["diagnose", "a.csv", "--base", "sinh", "--out", "new"]
 NEXT = ["next-test", "d", "--out", "c.csv"]
 MAKE = ["trial", "make", "new", "--cases", "1", "--seed", "1"]
 IN_BATCH: Mapping[str, bytes] = {"d/a.csv": GOOD_FILE}
@@ -144,6 +145,18 @@ CAMPAIGNS = {
     ),
     "diagnose: an effect of nobody": Command(
         ["diagnose", "a.csv", "--base", "sinh", "--out", "new", "--without", "magic"], ["without is 'magic'"]
+    ),
+    "diagnose: a limit of nobody": Command(
+        [*DIAGNOSE, "--limit", "weight=3"], ["--limit weight=3", "stroke"]
+    ),
+    "diagnose: a limit twice": Command(
+        [*DIAGNOSE, "--limit", "stroke=3", "--limit", "stroke=4"], ["--limit stroke=4", "each once"]
+    ),
+    "diagnose: a limit that is a word": Command(
+        [*DIAGNOSE, "--limit", "speed=fast"], ["--limit speed=fast", "--limit speed=NUMBER in mm/s"]
+    ),
+    "diagnose: a current without a range": Command(
+        [*DIAGNOSE, "--limit", "current=3"], ["--limit current=3", "LOWEST:HIGHEST"]
     ),
     "diagnose: bytes that are no text": Command(
         ["diagnose", "a.csv", "--base", "sinh", "--out", "new", "--exclude", os.fsdecode(b"\xff")],

@@ -1,5 +1,6 @@
 """Calls of the functions that work for long: nothing may be begun with arguments that cannot be."""
 
+import math
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -93,6 +94,16 @@ JOBS = {
     ),
     "diagnose: an effect of nobody": diagnose(
         "without is 'magic'", "one of maxwell_relaxation", without=["magic"]
+    ),
+    "diagnose: a number for limits": typed(lambda: mre_core.diagnose(GOOD, limits=3), "limits are 3"),
+    "diagnose: a limit below zero": diagnose("stroke is -1", "from 1e-06", limits={"stroke": -1}),
+    "diagnose: a limit of NaN": diagnose("stroke is nan", limits={"stroke": math.nan}),
+    "diagnose: a frequency that few samples show": diagnose(
+        "highest is 900 Hz", "ten samples a cycle", limits={"highest": 900}
+    ),
+    "diagnose: a test of a year": diagnose("duration is 3e+07 s", limits={"duration": 3e7}),
+    "diagnose: limits of a current that never changes": diagnose(
+        "limits of the current", "where it changes", limits={"current": (0, 3)}
     ),
     "diagnose: a number for effects": typed(lambda: mre_core.diagnose(GOOD, without=3), "without is 3"),
     "diagnose: a number for a base": typed(lambda: mre_core.diagnose(GOOD, base=3), "base is 3", "a Model"),

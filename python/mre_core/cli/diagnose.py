@@ -33,6 +33,14 @@ if TYPE_CHECKING:
 @click.option(
     "--without", multiple=True, metavar="EFFECT", help="Rule an effect out; may be given several times."
 )
+@click.option(
+    "--limit",
+    "limits",
+    multiple=True,
+    metavar="NAME=VALUE",
+    help="Limit of the next test: stroke (mm), speed (mm/s), highest (frequency, Hz), duration (s), current "
+    "(LOWEST:HIGHEST, A); may be given several times. What was tested by default.",
+)
 @click.option("--seed", type=WHOLE, help="Same seed, same result.")
 @trim_options
 @click.option(
@@ -57,6 +65,7 @@ def diagnose(
     conditions: tuple[str, ...],
     name_pattern: str | None,
     reading: tuple[str, ...],
+    limits: tuple[str, ...],
     **options: Any,
 ) -> int:
     """Say what the model MODEL leaves out of RECORDINGS (files or folders): what, where, how much.
@@ -73,6 +82,7 @@ def diagnose(
     from ..diagnose import diagnose as run
     from ..output import Stage, staged, to_json
     from .interrupts import interrupts
+    from .limits import limits_of
     from .settings import write_settings
     from .show import print_diagnosis
     from .stages import stages
@@ -88,6 +98,7 @@ def diagnose(
                     base,
                     on_stage=lambda now: signals.done() if now == DONE else show(now),
                     on_interrupt="return",
+                    limits=limits_of(limits),
                     **options,
                 )
             if isinstance(stage, Stage) and out is not None:

@@ -62,9 +62,9 @@ def next_test(folder: Path, out: Path, quiet: bool, current: str | None, **limit
 
 def _range(text: str) -> tuple[float, float]:
     from ..errors import InputError
+    from .limits import range_of
 
     try:
-        low, high = map(float, text.split(":"))
+        return range_of(text)
     except ValueError:
         raise InputError(f"--current {text}", wanted="--current LOWEST:HIGHEST in A") from None
-    return low, high

@@ -2,9 +2,11 @@
 
 mod describe;
 
+use std::collections::BTreeMap;
+
 use describe::After;
 use mre::assembly::{Base, Campaign, Kept};
-use mre::diagnose::{self, KINDS, Limits, Monitor, Settings, Stage};
+use mre::diagnose::{self, GivenLimits, KINDS, Limits, Monitor, Settings, Stage};
 use mre::error::{Error, Result};
 use numpy::PyArray1;
 use pyo3::exceptions::PyKeyboardInterrupt;
@@ -26,11 +28,11 @@ type Forces<'py> = Vec<Bound<'py, PyArray1<f64>>>;
 /// `groups` are the places of recordings that share parameters of the model. Where `held` has levels, the
 /// model keeps them; where `given` has a force for every recording, that force is the base instead of the
 /// model; `held_effects` as for a simulation, with their `sizes`, are kept with them. `base_effects` are `(id, law, shapes to start from)` of effects that belong to the base,
-/// `without` ids of effects that are ruled out. So many
-/// `blank` campaigns are diagnosed after that. `on_stage` is called with each stage in words. Where Ctrl-C
+/// `without` ids of effects that are ruled out; `limits` (stroke, speed, highest, duration) and `limit_current` are those of
+/// the next test. So many `blank` campaigns are diagnosed after that. `on_stage` is called with each stage in words. Where Ctrl-C
 /// ends it and is not to be raised, what is known by then is returned; it is raised where that is nothing.
 #[pyfunction]
-#[pyo3(signature = (recordings, model, groups, *, false_alarm, seed, held=None, held_effects=Vec::new(), sizes=None, given=None, base_effects=Vec::new(), without=Vec::new(), blank=0, threads=None, on_stage=None, on_interrupt="raise"))]
+#[pyo3(signature = (recordings, model, groups, *, false_alarm, seed, held=None, held_effects=Vec::new(), sizes=None, given=None, base_effects=Vec::new(), without=Vec::new(), limits=BTreeMap::new(), limit_current=None, blank=0, threads=None, on_stage=None, on_interrupt="raise"))]
 #[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)]
 pub(crate) fn diagnose_recordings<'py>(
     py: Python<'py>,
@@ -45,6 +47,8 @@ pub(crate) fn diagnose_recordings<'py>(
     given: Option<Vec<Vec<f64>>>,
     base_effects: Vec<(String, String, Vec<f64>)>,
     without: Vec<String>,
+    limits: BTreeMap<String, f64>,
+    limit_current: Option<(f64, f64)>,
     blank: usize,
     threads: Option<Whole>,
     on_stage: Option<Py<PyAny>>,
@@ -82,7 +86,15 @@ pub(crate) fn diagnose_recordings<'py>(
                 (None, Some(force)) => Base::Given(force),
                 (None, None) => Base::fitted(&recordings, model, &groups)?,
             };
-            let settings = Settings::new(false_alarm, seed, &without, &base);
+            let limit = |name: &str| limits.get(name).copied();
+            let limits = GivenLimits {
+                stroke: limit("stroke"),
+                speed: limit("speed"),
+                highest: limit("highest"),
+                duration: limit("duration"),
+                current: limit_current,
+            };
+            let settings = Settings { limits, ..Settings::new(false_alarm, seed, &without, &base) };
             let Some(found) = diagnose::run(&campaign, &base, &own, &settings, link) else { return Ok(None) };
             let refitted = diagnose::refitted(&found, &groups, link.cancel(), link);
             let blanks = match blank {

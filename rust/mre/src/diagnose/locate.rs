@@ -4,21 +4,22 @@
 use rayon::prelude::*;
 
 use super::distribution::chi_square_tail;
+use super::lasting::lasting;
 use super::null::Null;
 use crate::effect::Scene;
 
 /// Moments of each recording at which the stiffness may change.
-const MOMENTS: usize = 40;
+pub(super) const MOMENTS: usize = 40;
 /// Stretches of the displacement, each a hat that spans two of them.
 const STRETCHES: usize = 20;
 /// Highest harmonic of the drive.
 const HARMONICS: usize = 7;
 /// A moment explains so many times as much as its whole recording.
-const CLEARLY: f64 = 1.3;
+pub(super) const CLEARLY: f64 = 1.3;
 /// Entries at most.
 const MOST: usize = 12;
 /// Share of a column's square that the base model has to leave.
-const SMALLEST_SHARE: f64 = 1e-6;
+pub(super) const SMALLEST_SHARE: f64 = 1e-6;
 
 /// What a place is a place in.
 #[derive(Debug, Clone, PartialEq)]
@@ -74,6 +75,7 @@ pub(super) fn locate(null: &Null, false_alarm: f64) -> Vec<Finding> {
     let mut found: Vec<Vec<Finding>> =
         (0..recordings).into_par_iter().map(|r| in_recording(null, r)).collect();
     found.push(in_state(null));
+    found.push(lasting(null));
     let all: Vec<Finding> = found.into_iter().flatten().collect();
     let tests = all.len() as f64;
     let mut significant: Vec<Finding> = all
@@ -90,7 +92,8 @@ pub(super) fn locate(null: &Null, false_alarm: f64) -> Vec<Finding> {
     kept
 }
 
-fn overlap(a: &Place, b: &Place) -> bool {
+/// True where two places are about one.
+pub(super) fn overlap(a: &Place, b: &Place) -> bool {
     match (a, b) {
         (Place::Time { recording: r, from, to }, Place::Time { recording: s, from: start, to: end }) => {
             r == s && from < end && start < to
@@ -208,21 +211,17 @@ fn in_state(null: &Null) -> Vec<Finding> {
     let (far, fast) = (sizes.displacement, sizes.velocity);
     let step = 2.0 * far / STRETCHES as f64;
     let centre = |k: usize| -far + step * k as f64;
-    // Every hat moving up, moving down, and both ways.
-    let count = 3 * (STRETCHES + 1);
+    // Every hat in each band of velocities.
+    let bands = [[-fast, fast], [0.0, fast], [-fast, 0.0], [-fast, -0.5 * fast], [0.5 * fast, fast]];
+    let count = bands.len() * (STRETCHES + 1);
     let (gram, right, squares) = null.project(count, |r| {
         let scene = null.scene(r);
         (0..count)
             .map(|place| {
-                let (k, way) = (place / 3, place % 3);
+                let (k, [low, high]) = (place / bands.len(), bands[place % bands.len()]);
                 let column = (0..scene.len()).map(|i| {
-                    let admitted = match way {
-                        0 => scene.velocity[i] > 0.0,
-                        1 => scene.velocity[i] < 0.0,
-                        _ => true,
-                    };
                     let hat = 1.0 - (scene.displacement[i] - centre(k)).abs() / step;
-                    if admitted { hat.max(0.0) } else { 0.0 }
+                    if (low..=high).contains(&scene.velocity[i]) { hat.max(0.0) } else { 0.0 }
                 });
                 (place, column.collect())
             })
@@ -231,8 +230,7 @@ fn in_state(null: &Null) -> Vec<Finding> {
     (0..count)
         .filter(|i| gram[(*i, *i)] > SMALLEST_SHARE * squares[*i] && squares[*i] > 0.0)
         .map(|i| {
-            let (k, way) = (i / 3, i % 3);
-            let v = [[0.0, fast], [-fast, 0.0], [-fast, fast]][way];
+            let (k, v) = (i / bands.len(), bands[i % bands.len()]);
             let x = [(centre(k) - step).max(-far), (centre(k) + step).min(far)];
             Finding { place: Place::State { x, v }, strength: right[i].abs() / gram[(i, i)].sqrt() }
         })

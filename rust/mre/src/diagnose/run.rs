@@ -9,6 +9,7 @@ use super::intervals::estimates;
 use super::judge::{Judged, judge, settle_reference};
 use super::least_squares::{Data, Fitted};
 use super::locate::locate;
+use super::moments::with_moments;
 use super::monitor::{Monitor, Stage};
 use super::next_test::{Doubt, propose};
 use super::normal::Rows;
@@ -66,6 +67,8 @@ pub fn run<'a>(
         named.fitted = base_fit.clone();
         named.p_values = Vec::new();
     }
+    let places = places.unwrap_or_default();
+    let sharper = monitor.stage(Stage::Location, || with_moments(places.clone(), &search, &named));
     let judged = splits.fit_for(&named.assembly);
     let proofs = monitor.stage(Stage::Proof, || {
         let proof = |of, fitted| prove(of, &named.noise, judged, fitted, monitor);
@@ -82,7 +85,7 @@ pub fn run<'a>(
         nearest,
         next_test: next_test.flatten(),
         absorbed,
-        places: places.unwrap_or_default(),
+        places: sharper.unwrap_or(places),
         proofs,
         ..models(&begun, base_fit, named, data)
     })

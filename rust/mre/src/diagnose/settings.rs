@@ -1,9 +1,10 @@
 //! What a diagnosis is asked.
 
+use super::next_test::GivenLimits;
 use crate::assembly::Base;
 use crate::effect::{CATALOGUE, Effect};
 
-/// Rate of false alarms, seed, and the laws that may be named.
+/// Rate of false alarms, seed, the laws that may be named, and the limits of a test that is proposed.
 #[derive(Clone)]
 pub struct Settings {
     /// Chance that something is named although nothing is missing.
@@ -12,6 +13,8 @@ pub struct Settings {
     pub seed: u64,
     /// Laws of the effects that are not ruled out.
     pub laws: Vec<&'static dyn Effect>,
+    /// Limits of the next test.
+    pub limits: GivenLimits,
 }
 
 impl Settings {
@@ -21,6 +24,7 @@ impl Settings {
         let open = |e: &&'static dyn Effect| {
             (hysteretic || !e.on_springs_alone()) && !ruled_out.iter().any(|id| id == e.about().effect)
         };
-        Self { false_alarm, seed, laws: CATALOGUE.iter().copied().filter(open).collect() }
+        let laws = CATALOGUE.iter().copied().filter(open).collect();
+        Self { false_alarm, seed, laws, limits: GivenLimits::default() }
     }
 }

@@ -188,6 +188,12 @@ pub trait Effect: Send + Sync {
         false
     }
 
+    /// Where its parameters tell when it happens: from and to, s from the start of the campaign.
+    fn moment(&self, shape: &[f64]) -> Option<(f64, f64)> {
+        let _ = shape;
+        None
+    }
+
     /// What the effect takes from the motion for each newton of the device with all its effects, mm/N. A fit is
     /// then repeated until that force agrees with what the effect saw. Zero: it only follows from that force.
     fn flexibility(&self, shape: &[f64]) -> Option<f64> {

@@ -32,6 +32,10 @@ impl Effect for OnSpring {
         self.law.in_one_recording()
     }
 
+    fn moment(&self, shape: &[f64]) -> Option<(f64, f64)> {
+        self.law.moment(shape)
+    }
+
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
         self.law.shape(sizes)
     }

@@ -52,6 +52,10 @@ impl Effect for StiffnessJump {
         true
     }
 
+    fn moment(&self, shape: &[f64]) -> Option<(f64, f64)> {
+        Some((shape[1], shape[1] + shape[2]))
+    }
+
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
         vec![
             within("s", "", -0.9, 0.95),

@@ -5,22 +5,7 @@ use std::f64::consts::{PI, TAU};
 use rand_chacha::ChaCha8Rng;
 use rand_core::{Rng, SeedableRng};
 
-/// What the machine and the device may do.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Limits {
-    /// Largest displacement, mm.
-    pub stroke: f64,
-    /// Largest speed, mm/s.
-    pub speed: f64,
-    /// Highest frequency, Hz.
-    pub highest: f64,
-    /// Duration, s.
-    pub duration: f64,
-    /// Samples a second.
-    pub rate: f64,
-    /// Lowest and highest coil current, A, where it may be changed.
-    pub current: Option<(f64, f64)>,
-}
+use super::limits::Limits;
 
 /// Kinds of excitation, the plainest first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

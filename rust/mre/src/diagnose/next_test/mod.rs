@@ -5,6 +5,7 @@
 //! that the recordings hide are tested for on the same, as in the diagnosis itself.
 
 mod excitation;
+mod limits;
 mod told;
 mod world;
 
@@ -24,7 +25,8 @@ use crate::effect::Effect;
 use told::{Told, by_effect};
 use world::World;
 
-pub use excitation::{KINDS, Kind, Limits, Signal};
+pub use excitation::{KINDS, Kind, Signal};
+pub use limits::{GivenLimits, Limits};
 
 /// Difference in the criterion from which two effects are told apart.
 const APART: f64 = 10.0;
@@ -34,13 +36,6 @@ const PASSES: usize = 4;
 const MOST_ODDS: f64 = 50.0;
 /// A plainer excitation is preferred where another resolves less than this much more.
 const WORTH: f64 = 0.1;
-/// Highest frequency that is proposed, as a share of the sampling rate.
-const HIGHEST_SHARE: f64 = 0.05;
-/// Highest frequency that is proposed, Hz.
-const HIGHEST: f64 = 10.0;
-/// Durations that are proposed, s.
-const DURATIONS: std::ops::Range<f64> = 10.0..40.0;
-
 /// What an excitation is expected to tell.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Prospect {
@@ -72,7 +67,7 @@ pub(super) struct Doubt<'a> {
     pub(super) hidden: Vec<&'static str>,
 }
 
-/// The best of the excitations within limits that follow from the recordings.
+/// The best of the excitations within the limits given, or those of the recordings.
 pub(super) fn propose(
     named: &Named,
     base: &Base,
@@ -84,16 +79,7 @@ pub(super) fn propose(
     if doubt.rivals.is_empty() && doubt.hidden.is_empty() {
         return None;
     }
-    let sizes = named.assembly.campaign().sizes();
-    let rate = 1.0 / sizes.step;
-    let limits = Limits {
-        stroke: sizes.displacement,
-        speed: sizes.velocity,
-        highest: (HIGHEST_SHARE * rate).min(HIGHEST),
-        duration: sizes.duration.clamp(DURATIONS.start, DURATIONS.end),
-        rate,
-        current: sizes.current.filter(|(low, high)| high > low),
-    };
+    let limits = Limits::of(&settings.limits, named.assembly.campaign().sizes());
     let mut prospects: Vec<Prospect> = KINDS
         .iter()
         .filter_map(|kind| {

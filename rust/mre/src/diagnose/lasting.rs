@@ -1,0 +1,51 @@
+//! Moments after which the whole campaign differs: a change in one recording that all later ones keep.
+
+use nalgebra::DVector;
+
+use super::locate::{CLEARLY, Finding, Place, SMALLEST_SHARE};
+use super::null::Null;
+
+/// Parts of a recording between which the stiffness may change for good.
+const PARTS: usize = 20;
+
+/// Strength of a change of the force at moments of each recording but the last, in the order of the recordings.
+pub(super) fn lasting(null: &Null) -> Vec<Finding> {
+    let recordings = null.assembly().campaign().recordings().len();
+    // Of each recording: the force from a moment on, the whole force first.
+    let count = recordings * PARTS;
+    let (gram, right, squares) = null.project(count, |r| {
+        let scene = null.scene(r);
+        let n = scene.len();
+        let from = |part: usize| {
+            let start = n * part / PARTS;
+            (0..n).map(|i| if i >= start { scene.force[i] } else { 0.0 }).collect()
+        };
+        (0..PARTS).map(|part| (r * PARTS + part, from(part))).collect()
+    });
+    let mut found = Vec::new();
+    for r in 0..recordings.saturating_sub(1) {
+        let mut later = DVector::<f64>::zeros(count);
+        (r + 1..recordings).for_each(|s| later[s * PARTS] = 1.0);
+        let (bent, own, shown) =
+            (&gram * &later, later.dot(&right), later.dot(&DVector::from(squares.clone())));
+        let strength = |i: Option<usize>| {
+            let (cross, itself, square, score) =
+                i.map_or((0.0, 0.0, 0.0, 0.0), |i| (bent[i], gram[(i, i)], squares[i], right[i]));
+            let left = itself + 2.0 * cross + later.dot(&bent);
+            if left > SMALLEST_SHARE * (square + shown) { (score + own) / left.sqrt() } else { 0.0 }
+        };
+        // Between two recordings is another place.
+        let between = strength(None).powi(2).max(strength(Some(r * PARTS)).powi(2));
+        let scene = null.scene(r);
+        let width = scene.duration() / PARTS as f64;
+        for part in 1..PARTS {
+            let own = strength(Some(r * PARTS + part));
+            if own * own > CLEARLY * between {
+                let at = scene.time[scene.len() * part / PARTS];
+                let place = Place::Time { recording: r, from: at - width, to: at + width };
+                found.push(Finding { place, strength: own.abs() });
+            }
+        }
+    }
+    found
+}

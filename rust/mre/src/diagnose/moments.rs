@@ -1,0 +1,40 @@
+//! Moments at which effects that were named happen, among the places where the mismatch is: a joint fit finds
+//! them more exactly than columns beside a base that has bent.
+
+use super::locate::{Finding, MOMENTS, Place, overlap};
+use super::search::{Named, Search};
+use crate::assembly::Assembly;
+
+/// Places with those of named effects instead of what they overlap, strongest first.
+pub(super) fn with_moments(mut places: Vec<Finding>, search: &Search, named: &Named) -> Vec<Finding> {
+    for place in search.given()..named.assembly.effects().len() {
+        let Some(at) = moment(&named.assembly, &named.fitted.unit, place) else { continue };
+        let gain = search.drop(named, place).fitted.left - named.fitted.left;
+        let found = Finding { place: at, strength: gain.max(0.0).sqrt() };
+        places.retain(|other| !overlap(&other.place, &found.place));
+        let before = places.partition_point(|other| other.strength > found.strength);
+        places.insert(before, found);
+    }
+    places
+}
+
+/// When an effect of a model happens, if its parameters tell, in its recording.
+fn moment(assembly: &Assembly, unit: &[f64], place: usize) -> Option<Place> {
+    let campaign = assembly.campaign();
+    let shapes = assembly.physical(unit);
+    let widths = assembly.effects().iter().map(|e| e.shape(campaign.sizes()).len());
+    let skipped: usize = assembly.base_shapes() + widths.take(place).sum::<usize>();
+    let (from, to) = assembly.effects()[place].moment(&shapes[skipped..])?;
+    let mut start = 0.0;
+    for (r, recording) in campaign.recordings().iter().enumerate() {
+        let time = recording.time();
+        let duration = time[time.len() - 1] - time[0];
+        if from < start + duration {
+            let around = duration / MOMENTS as f64;
+            let own = |t: f64| (time[0] + t - start).clamp(time[0], time[0] + duration);
+            return Some(Place::Time { recording: r, from: own(from - around), to: own(to + around) });
+        }
+        start += duration;
+    }
+    None
+}

@@ -1,0 +1,58 @@
+//! What the machine and the device may do in the next test.
+
+use crate::effect::Sizes;
+
+/// Highest frequency that is proposed, as a share of the sampling rate.
+const HIGHEST_SHARE: f64 = 0.05;
+/// Highest frequency that is proposed, Hz.
+const HIGHEST: f64 = 10.0;
+/// Durations that are proposed, s.
+const DURATIONS: std::ops::Range<f64> = 10.0..40.0;
+
+/// What the machine and the device may do.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Limits {
+    /// Largest displacement, mm.
+    pub stroke: f64,
+    /// Largest speed, mm/s.
+    pub speed: f64,
+    /// Highest frequency, Hz.
+    pub highest: f64,
+    /// Duration, s.
+    pub duration: f64,
+    /// Samples a second.
+    pub rate: f64,
+    /// Lowest and highest coil current, A, where it may be changed.
+    pub current: Option<(f64, f64)>,
+}
+
+/// Limits that a user gives; what is missing follows from the recordings.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct GivenLimits {
+    /// Largest displacement, mm.
+    pub stroke: Option<f64>,
+    /// Largest speed, mm/s.
+    pub speed: Option<f64>,
+    /// Highest frequency, Hz.
+    pub highest: Option<f64>,
+    /// Duration, s.
+    pub duration: Option<f64>,
+    /// Lowest and highest coil current, A.
+    pub current: Option<(f64, f64)>,
+}
+
+impl Limits {
+    /// Those given, and for the rest what was tested.
+    pub(super) fn of(given: &GivenLimits, sizes: &Sizes) -> Self {
+        let rate = 1.0 / sizes.step;
+        let duration = || sizes.duration.clamp(DURATIONS.start, DURATIONS.end);
+        Self {
+            stroke: given.stroke.unwrap_or(sizes.displacement),
+            speed: given.speed.unwrap_or(sizes.velocity),
+            highest: given.highest.unwrap_or((HIGHEST_SHARE * rate).min(HIGHEST)),
+            duration: given.duration.unwrap_or_else(duration),
+            rate,
+            current: given.current.or(sizes.current).filter(|(low, high)| high > low),
+        }
+    }
+}
