@@ -67,7 +67,7 @@ proof: install
 # How often the diagnosis is right, by experiment; SEED is a judging seed that was never run.
 rates: install
 	test -n "$(SEED)"
-	for e in singles others pairs triples removed unknown nulls weak doubts; do \
+	for e in singles others pairs triples removed unknown nulls weak doubts located; do \
 	  $(BIN)/python benches/rates $$e --cases $(or $(CASES),200) --seed $(SEED); done
 	$(BIN)/python benches/proof.py
 

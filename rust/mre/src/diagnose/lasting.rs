@@ -7,10 +7,15 @@ use super::null::Null;
 
 /// Parts of a recording between which the stiffness may change for good.
 const PARTS: usize = 20;
+/// Recordings at most: the work grows with their square.
+const MOST: usize = 60;
 
 /// Strength of a change of the force at moments of each recording but the last, in the order of the recordings.
 pub(super) fn lasting(null: &Null) -> Vec<Finding> {
     let recordings = null.assembly().campaign().recordings().len();
+    if !(2..=MOST).contains(&recordings) {
+        return Vec::new();
+    }
     // Of each recording: the force from a moment on, the whole force first.
     let count = recordings * PARTS;
     let (gram, right, squares) = null.project(count, |r| {
@@ -22,12 +27,12 @@ pub(super) fn lasting(null: &Null) -> Vec<Finding> {
         };
         (0..PARTS).map(|part| (r * PARTS + part, from(part))).collect()
     });
+    let squares = DVector::from(squares);
     let mut found = Vec::new();
-    for r in 0..recordings.saturating_sub(1) {
+    for r in 0..recordings - 1 {
         let mut later = DVector::<f64>::zeros(count);
         (r + 1..recordings).for_each(|s| later[s * PARTS] = 1.0);
-        let (bent, own, shown) =
-            (&gram * &later, later.dot(&right), later.dot(&DVector::from(squares.clone())));
+        let (bent, own, shown) = (&gram * &later, later.dot(&right), later.dot(&squares));
         let strength = |i: Option<usize>| {
             let (cross, itself, square, score) =
                 i.map_or((0.0, 0.0, 0.0, 0.0), |i| (bent[i], gram[(i, i)], squares[i], right[i]));

@@ -68,7 +68,7 @@ pub fn run<'a>(
         named.p_values = Vec::new();
     }
     let places = places.unwrap_or_default();
-    let sharper = monitor.stage(Stage::Location, || with_moments(places.clone(), &search, &named));
+    let sharper = monitor.whole(with_moments(places.clone(), &search, &named));
     let judged = splits.fit_for(&named.assembly);
     let proofs = monitor.stage(Stage::Proof, || {
         let proof = |of, fitted| prove(of, &named.noise, judged, fitted, monitor);
