@@ -91,8 +91,9 @@ def diagnose(
         Ids of effects that are ruled out, and not to be named.
     limits : mapping, optional
         Of the next test that is proposed: ``stroke`` in mm, ``speed`` in mm/s, ``highest`` frequency in Hz,
-        ``duration`` in s, ``current`` (lowest and highest, A). What was tested where not given; 10 Hz or a
-        twentieth of the sampling rate for the highest frequency.
+        ``duration`` in s, ``current`` (lowest and highest, A); strokes and currents within what was tested.
+        By default stroke, speed and currents of the recordings, 10 Hz or a twentieth of the sampling rate,
+        and the duration of the longest recording, but 10 to 40 s.
     blank : int
         Diagnose so many simulations of the fitted base model with its fitted noise as well: how often an
         effect is named where nothing is missing (`blank` of the result).
@@ -137,7 +138,7 @@ def diagnose(
         false_alarm=float(false_alarm),
         seed=seed,
         without=ruled_out,
-        **limits_for({} if limits is None else limits, everything),
+        **limits_for({} if limits is None else limits, everything, fixed=fixed),
         blank=blank,
         threads=workers(threads),
         on_stage=on_stage,

@@ -49,9 +49,9 @@ def command(
         ``next_test`` of a diagnosis.
     stroke, speed, highest, duration, rate : float, optional
         Largest displacement in mm and speed in mm/s, highest frequency in Hz, duration in s, samples a
-        second; those of the recordings by default.
+        second; those of the diagnosis by default.
     current : (float, float), optional
-        Lowest and highest current in A, where the test commands it; those of the recordings by default.
+        Lowest and highest current in A, where the test commands it; those of the diagnosis by default.
 
     Returns
     -------

@@ -94,7 +94,9 @@ def place(found: Mapping[str, Any]) -> str:
         case "state":
             (low, high), (slowest, fastest) = found["x_mm"], found["v_mm_s"]
             way = ", moving up" if slowest >= 0 else ", moving down" if fastest <= 0 else ""
-            return f"between {low:.3g} mm and {high:.3g} mm{way}"
+            slow = min(abs(slowest), abs(fastest)) if slowest * fastest > 0 else 0.0
+            fast = f", faster than {slow:.3g} mm/s" if slow else ""
+            return f"between {low:.3g} mm and {high:.3g} mm{way}{fast}"
         case "harmonic":
             drive, number = found["drive_hz"], found["harmonic"]
             what = "at the frequency" if number == 1 else f"at {number} times the frequency"

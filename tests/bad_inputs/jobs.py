@@ -97,6 +97,7 @@ JOBS = {
     ),
     "diagnose: a number for limits": typed(lambda: mre_core.diagnose(GOOD, limits=3), "limits are 3"),
     "diagnose: a limit below zero": diagnose("stroke is -1", "from 1e-06", limits={"stroke": -1}),
+    "diagnose: a stroke that was not tested": diagnose("stroke is 900 mm", "tested", limits={"stroke": 900}),
     "diagnose: a limit of NaN": diagnose("stroke is nan", limits={"stroke": math.nan}),
     "diagnose: a frequency that few samples show": diagnose(
         "highest is 900 Hz", "ten samples a cycle", limits={"highest": 900}

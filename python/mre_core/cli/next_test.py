@@ -27,7 +27,7 @@ from .options import config_option
 def next_test(folder: Path, out: Path, quiet: bool, current: str | None, **limits: float | None) -> None:
     """Write the command signal of the test that the diagnosis in DIR proposes.
 
-    What is not limited here stays within what was tested.
+    What is not limited here stays within the limits of the diagnosis.
 
     \b
     Examples:

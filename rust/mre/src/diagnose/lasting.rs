@@ -47,7 +47,9 @@ pub(super) fn lasting(null: &Null) -> Vec<Finding> {
             let own = strength(Some(r * PARTS + part));
             if own * own > CLEARLY * between {
                 let at = scene.time[scene.len() * part / PARTS];
-                let place = Place::Time { recording: r, from: at - width, to: at + width };
+                let (first, last) = (scene.time[0], scene.time[scene.len() - 1]);
+                let (from, to) = ((at - width).max(first), (at + width).min(last));
+                let place = Place::Time { recording: r, from, to };
                 found.push(Finding { place, strength: own.abs() });
             }
         }

@@ -17,7 +17,7 @@ const HARMONICS: usize = 7;
 /// A moment explains so many times as much as its whole recording.
 pub(super) const CLEARLY: f64 = 1.3;
 /// Entries at most.
-const MOST: usize = 12;
+pub(super) const MOST: usize = 12;
 /// Share of a column's square that the base model has to leave.
 pub(super) const SMALLEST_SHARE: f64 = 1e-6;
 
@@ -219,9 +219,15 @@ fn in_state(null: &Null) -> Vec<Finding> {
         (0..count)
             .map(|place| {
                 let (k, [low, high]) = (place / bands.len(), bands[place % bands.len()]);
+                // What is faster than anything fitted belongs to the outer bands; what rests, to both ways.
+                let moves = |v: f64| match (low < 0.0, high > 0.0) {
+                    (true, true) => true,
+                    (true, false) => v < 0.0 && v <= high,
+                    _ => v > 0.0 && v >= low,
+                };
                 let column = (0..scene.len()).map(|i| {
                     let hat = 1.0 - (scene.displacement[i] - centre(k)).abs() / step;
-                    if (low..=high).contains(&scene.velocity[i]) { hat.max(0.0) } else { 0.0 }
+                    if moves(scene.velocity[i]) { hat.max(0.0) } else { 0.0 }
                 });
                 (place, column.collect())
             })

@@ -1,7 +1,7 @@
 //! Moments at which effects that were named happen, among the places where the mismatch is: a joint fit finds
 //! them more exactly than columns beside a base that has bent.
 
-use super::locate::{Finding, MOMENTS, Place, overlap};
+use super::locate::{Finding, MOMENTS, MOST, Place, overlap};
 use super::search::{Named, Search};
 use crate::assembly::Assembly;
 
@@ -10,10 +10,14 @@ pub(super) fn with_moments(mut places: Vec<Finding>, search: &Search, named: &Na
     for place in search.given()..named.assembly.effects().len() {
         let Some(at) = moment(&named.assembly, &named.fitted.unit, place) else { continue };
         let gain = search.drop(named, place).fitted.left - named.fitted.left;
-        let found = Finding { place: at, strength: gain.max(0.0).sqrt() };
+        if gain <= 0.0 {
+            continue;
+        }
+        let found = Finding { place: at, strength: gain.sqrt() };
         places.retain(|other| !overlap(&other.place, &found.place));
         let before = places.partition_point(|other| other.strength > found.strength);
         places.insert(before, found);
+        places.truncate(MOST);
     }
     places
 }

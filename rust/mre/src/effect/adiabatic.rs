@@ -44,7 +44,7 @@ impl Effect for Adiabatic {
             plain: "the device warms up as it dissipates, softens, and has no time to cool",
             equation: match self.by {
                 Work::Passed => "k -> k (1 - s T/T_max), dT/dt = |F v|",
-                Work::Net => "k -> k (1 - s T/T_max), dT/dt = F v",
+                Work::Net => "k -> k (1 - s T/T_max), T the largest integral of F v so far",
                 Work::Viscous => "k -> k (1 - s T/T_max), dT/dt = v^2",
             },
             reference: "Kalpakidis and Constantinou 2009",

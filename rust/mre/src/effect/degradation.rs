@@ -16,6 +16,16 @@ use super::work::Work;
 use super::{About, Effect, Factors, Scene, Sizes, order_within, within};
 use crate::parameter::Parameter;
 
+/// Name and equation of a law on the stiffness and on the whole force.
+macro_rules! both {
+    ($stiffness:literal, $whole:literal, $share:literal, $of:literal) => {
+        [
+            ($stiffness, concat!("k -> k (", $share, "), ", $of)),
+            ($whole, concat!("F -> F (", $share, "), ", $of)),
+        ]
+    };
+}
+
 /// What degradation follows.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Progress {
@@ -57,39 +67,50 @@ impl Degradation {
         }
     }
 
-    /// Names on the stiffness and on the whole force, and the equation.
-    fn words(self) -> ([&'static str; 2], &'static str) {
+    /// Name and equation on the stiffness and on the whole force.
+    fn words(self) -> [(&'static str, &'static str); 2] {
         match (self.by, self.saturates) {
             (Progress::Path, false) => {
-                (["path, stiffness", "path, whole force"], "k -> k (1 - s P/P_max), P the path travelled")
+                both!("path, stiffness", "path, whole force", "1 - s P/P_max", "P the path travelled")
             }
-            (Progress::Path, true) => (
-                ["path, saturating, stiffness", "path, saturating, whole force"],
-                "k -> k (1 - s (1 - exp(-P/P_c))), P the path travelled",
+            (Progress::Path, true) => both!(
+                "path, saturating, stiffness",
+                "path, saturating, whole force",
+                "1 - s (1 - exp(-P/P_c))",
+                "P the path travelled"
             ),
-            (Progress::Energy(Work::Passed), false) => (
-                ["energy, stiffness", "energy, whole force"],
-                "k -> k (1 - s E/E_max), E the integral of |F v|",
+            (Progress::Energy(Work::Passed), false) => {
+                both!("energy, stiffness", "energy, whole force", "1 - s E/E_max", "E the integral of |F v|")
+            }
+            (Progress::Energy(Work::Passed), true) => both!(
+                "energy, saturating, stiffness",
+                "energy, saturating, whole force",
+                "1 - s (1 - exp(-E/E_c))",
+                "E the integral of |F v|"
             ),
-            (Progress::Energy(Work::Passed), true) => (
-                ["energy, saturating, stiffness", "energy, saturating, whole force"],
-                "k -> k (1 - s (1 - exp(-E/E_c))), E the integral of |F v|",
+            (Progress::Energy(Work::Net), false) => both!(
+                "dissipated energy, stiffness",
+                "dissipated energy, whole force",
+                "1 - s E/E_max",
+                "E the largest integral of F v so far"
             ),
-            (Progress::Energy(Work::Net), false) => (
-                ["dissipated energy, stiffness", "dissipated energy, whole force"],
-                "k -> k (1 - s E/E_max), E the largest integral of F v so far",
+            (Progress::Energy(Work::Net), true) => both!(
+                "dissipated energy, saturating, stiffness",
+                "dissipated energy, saturating, whole force",
+                "1 - s (1 - exp(-E/E_c))",
+                "E the largest integral of F v so far"
             ),
-            (Progress::Energy(Work::Net), true) => (
-                ["dissipated energy, saturating, stiffness", "dissipated energy, saturating, whole force"],
-                "k -> k (1 - s (1 - exp(-E/E_c))), E the largest integral of F v so far",
+            (Progress::Energy(Work::Viscous), false) => both!(
+                "viscous heat, stiffness",
+                "viscous heat, whole force",
+                "1 - s E/E_max",
+                "E the integral of v^2"
             ),
-            (Progress::Energy(Work::Viscous), false) => (
-                ["viscous heat, stiffness", "viscous heat, whole force"],
-                "k -> k (1 - s E/E_max), E the integral of v^2",
-            ),
-            (Progress::Energy(Work::Viscous), true) => (
-                ["viscous heat, saturating, stiffness", "viscous heat, saturating, whole force"],
-                "k -> k (1 - s (1 - exp(-E/E_c))), E the integral of v^2",
+            (Progress::Energy(Work::Viscous), true) => both!(
+                "viscous heat, saturating, stiffness",
+                "viscous heat, saturating, whole force",
+                "1 - s (1 - exp(-E/E_c))",
+                "E the integral of v^2"
             ),
         }
     }
@@ -97,10 +118,10 @@ impl Degradation {
 
 impl Effect for Degradation {
     fn about(&self) -> About {
-        let (names, equation) = self.words();
+        let (law, equation) = self.words()[usize::from(self.whole)];
         About {
             effect: "cyclic_degradation",
-            law: names[usize::from(self.whole)],
+            law,
             plain: "the device gets softer with every cycle and does not recover",
             equation,
             reference: "Baber and Wen 1981",

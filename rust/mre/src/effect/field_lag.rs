@@ -18,6 +18,9 @@ use crate::parameter::Parameter;
 /// Time constants that a fit starts from, s.
 const TAUS: [f64; 6] = [5e-4, 0.003, 0.01, 0.05, 0.2, 0.8];
 
+/// Time constant of a field that overshoots, s, at least: it has a frequency.
+const SHORTEST: f64 = 1e-9;
+
 /// Form of the lag.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum FieldLag {
@@ -71,7 +74,10 @@ impl Effect for FieldLag {
         let tau = |name| order_within(name, "s", 2e-5, 2.0);
         match self {
             Self::One | Self::Twice => vec![tau("tau_i")],
-            Self::Ringing => vec![tau("tau_i"), within("zeta", "", 0.3, 0.95)],
+            Self::Ringing => vec![
+                Parameter { smallest: SHORTEST, ..tau("tau_i") },
+                Parameter { smallest: 0.0, largest: 0.99, ..within("zeta", "", 0.3, 0.95) },
+            ],
             Self::RiseAndFall => vec![tau("tau_u"), tau("tau_d")],
         }
     }

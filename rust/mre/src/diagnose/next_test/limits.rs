@@ -1,6 +1,6 @@
 //! What the machine and the device may do in the next test.
 
-use crate::effect::Sizes;
+use crate::assembly::Campaign;
 
 /// Highest frequency that is proposed, as a share of the sampling rate.
 const HIGHEST_SHARE: f64 = 0.05;
@@ -43,8 +43,9 @@ pub struct GivenLimits {
 
 impl Limits {
     /// Those given, and for the rest what was tested.
-    pub(super) fn of(given: &GivenLimits, sizes: &Sizes) -> Self {
-        let rate = 1.0 / sizes.step;
+    pub(super) fn of(given: &GivenLimits, campaign: &Campaign) -> Self {
+        let sizes = campaign.sizes();
+        let rate = campaign.recordings().iter().map(|r| r.sampling_rate()).fold(0.0, f64::max);
         let duration = || sizes.duration.clamp(DURATIONS.start, DURATIONS.end);
         Self {
             stroke: given.stroke.unwrap_or(sizes.displacement),

@@ -79,7 +79,7 @@ pub(super) fn propose(
     if doubt.rivals.is_empty() && doubt.hidden.is_empty() {
         return None;
     }
-    let limits = Limits::of(&settings.limits, named.assembly.campaign().sizes());
+    let limits = Limits::of(&settings.limits, named.assembly.campaign());
     let mut prospects: Vec<Prospect> = KINDS
         .iter()
         .filter_map(|kind| {
