@@ -140,12 +140,8 @@ CAMPAIGNS = {
     "batch: no address": batch("nonsense", given=["--cluster", "nonsense"]),
     "batch: no Dask workers": batch("local:0", given=["--cluster", "local:0"]),
     "batch: a folder that is a file": batch("a.csv", "cannot be written", given=["--out", "a.csv"]),
-    "diagnose: a certain false alarm": Command(
-        ["diagnose", "a.csv", "--base", "sinh", "--out", "new", "--false-alarm", "1"], ["false_alarm is 1.0"]
-    ),
-    "diagnose: an effect of nobody": Command(
-        ["diagnose", "a.csv", "--base", "sinh", "--out", "new", "--without", "magic"], ["without is 'magic'"]
-    ),
+    "diagnose: a certain false alarm": Command([*DIAGNOSE, "--false-alarm", "1"], ["false_alarm is 1.0"]),
+    "diagnose: an effect of nobody": Command([*DIAGNOSE, "--without", "magic"], ["without is 'magic'"]),
     "diagnose: a limit of nobody": Command(
         [*DIAGNOSE, "--limit", "weight=3"], ["--limit weight=3", "stroke"]
     ),
@@ -159,15 +155,13 @@ CAMPAIGNS = {
         [*DIAGNOSE, "--limit", "current=3"], ["--limit current=3", "LOWEST:HIGHEST"]
     ),
     "diagnose: bytes that are no text": Command(
-        ["diagnose", "a.csv", "--base", "sinh", "--out", "new", "--exclude", os.fsdecode(b"\xff")],
+        [*DIAGNOSE, "--exclude", os.fsdecode(b"\xff")],
         ["'?' is no text in UTF-8"],
     ),
     "diagnose: no such base": Command(
         ["diagnose", "a.csv", "--base", "cinh", "--out", "new"], ["'cinh'", "sinh"]
     ),
-    "diagnose: less than a cycle": Command(
-        ["diagnose", "a.csv", "--base", "sinh", "--out", "new"], ["recording 'a'", "one full cycle"]
-    ),
+    "diagnose: less than a cycle": Command(DIAGNOSE, ["recording 'a'", "one full cycle"]),
     "demo: a seed below zero": Command(["demo", "--seed", "-1", "--out", "new"], ["seed is -1", "from 0"]),
     "study: a seed below zero": Command(["study", "--quick", "--seed", "-1", "--out", "new"], ["seed is -1"]),
     "study: no recordings": Command(

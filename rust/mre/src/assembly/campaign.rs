@@ -94,6 +94,11 @@ impl Campaign {
         &self.sizes
     }
 
+    /// Duration of the recordings before one, s.
+    pub(crate) fn before(&self, r: usize) -> f64 {
+        self.before[r]
+    }
+
     /// What effects see of a recording, given the force of the base model alone and of the whole device.
     pub fn scene<'a>(&'a self, r: usize, force: &'a [f64], whole: &'a [f64]) -> Scene<'a> {
         let recording = &self.recordings[r];

@@ -29,16 +29,12 @@ fn moment(assembly: &Assembly, unit: &[f64], place: usize) -> Option<Place> {
     let widths = assembly.effects().iter().map(|e| e.shape(campaign.sizes()).len());
     let skipped: usize = assembly.base_shapes() + widths.take(place).sum::<usize>();
     let (from, to) = assembly.effects()[place].moment(&shapes[skipped..])?;
-    let mut start = 0.0;
-    for (r, recording) in campaign.recordings().iter().enumerate() {
-        let time = recording.time();
-        let duration = time[time.len() - 1] - time[0];
-        if from < start + duration {
-            let around = duration / MOMENTS as f64;
-            let own = |t: f64| (time[0] + t - start).clamp(time[0], time[0] + duration);
-            return Some(Place::Time { recording: r, from: own(from - around), to: own(to + around) });
-        }
-        start += duration;
-    }
-    None
+    let recordings = campaign.recordings();
+    let r = (0..recordings.len()).rfind(|r| campaign.before(*r) <= from)?;
+    let time = recordings[r].time();
+    let (first, last) = (time[0], time[time.len() - 1]);
+    let around = (last - first) / MOMENTS as f64;
+    let own = |t: f64| (first + t - campaign.before(r)).clamp(first, last);
+    let place = Place::Time { recording: r, from: own(from - around), to: own(to + around) };
+    (from - campaign.before(r) < last - first).then_some(place)
 }

@@ -38,17 +38,16 @@ pub(super) enum Remanence {
 /// Widths of plays.
 const WIDTHS: usize = 6;
 
-/// Mean over half widths that spread evenly up to `widest`.
-fn mean_of_widths(widest: f64, of: impl Fn(f64) -> f64) -> f64 {
-    let widths = (1..=WIDTHS).map(|k| widest * k as f64 / WIDTHS as f64);
-    widths.map(of).sum::<f64>() / WIDTHS as f64
+/// Half widths that spread evenly up to `widest`.
+fn widths(widest: f64) -> impl Iterator<Item = f64> {
+    (1..=WIDTHS).map(move |k| widest * k as f64 / WIDTHS as f64)
 }
 
 /// Mean of plays of such widths, all at `start` before the first sample.
 fn plays(current: &[f64], widest: f64, start: f64) -> Vec<f64> {
     let mut mean = vec![0.0; current.len()];
-    for k in 1..=WIDTHS {
-        let one = play_from(start, current, widest * k as f64 / WIDTHS as f64);
+    for width in widths(widest) {
+        let one = play_from(start, current, width);
         mean.iter_mut().zip(one).for_each(|(sum, p)| *sum += p / WIDTHS as f64);
     }
     mean
@@ -63,7 +62,7 @@ impl Remanence {
             Self::PlaysSeen => plays(current, width, current[0]),
             Self::RaisedPlaysSeen => plays(current, width, 0.0),
             Self::FollowingPlaysSeen => {
-                let slack = |i: f64| mean_of_widths(width, |r| i.clamp(-r, r));
+                let slack = |i: f64| widths(width).map(|r| i.clamp(-r, r)).sum::<f64>() / WIDTHS as f64;
                 let plays = plays(current, width, 0.0);
                 plays.iter().zip(current).map(|(p, i)| p + slack(*i)).collect()
             }
