@@ -26,7 +26,7 @@ ARRAYS = 4
 HEAD = """# Time and memory of a diagnosis
 
 Printed by `python benches/diagnosis.py` on {cores} cores, load {load:.1f}. Memory is the peak of the process
-above that before the recordings were made, over the size of the recordings.
+above what it had when the recordings were made, over the size of the recordings.
 
 | samples | seconds | seconds per 1,000 samples | memory / recordings | named |
 |---:|---:|---:|---:|---|"""
@@ -57,8 +57,8 @@ def campaign(samples: int) -> list[Recording]:
 
 def measure(samples: int) -> str:
     """One row of the table."""
-    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     recordings = campaign(samples)
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     start = time.perf_counter()
     found = mre_core.diagnose(recordings, "sinh", seed=1)
     seconds = time.perf_counter() - start

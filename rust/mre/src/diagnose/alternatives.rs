@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::candidates::{Candidate, candidates, joint, scores};
+use super::held::Held;
 use super::least_squares::Data;
 use super::null::Null;
 use super::screen::Score;
@@ -43,9 +44,11 @@ pub(super) fn rivals<'a>(
         .collect();
     let null = (!others.is_empty()).then(|| Null::new(&without.assembly, data, unit)).flatten();
     let Some(null) = null else { return found };
-    let others: Vec<Candidate> = others
+    let starts: Vec<Held> = others.into_par_iter().map(|score| null.held(score)).collect();
+    drop(null);
+    let others: Vec<Candidate> = starts
         .into_par_iter()
-        .map(|score| joint(&without.assembly, data, unit, score.effect, &null.held(score).shape))
+        .map(|held| joint(&without.assembly, data, unit, held.score.effect, &held.shape))
         .collect();
     found.extend(others.into_iter().filter_map(told));
     found

@@ -231,7 +231,9 @@ pub(super) fn candidates<'a>(
     most: usize,
 ) -> Vec<Candidate<'a>> {
     let Some(null) = Null::new(assembly, data, unit) else { return Vec::new() };
-    let mut found: Vec<Candidate> = promising(&null, scores, most)
+    let (promising, before) = (promising(&null, scores, most), null.point.fitted.left);
+    drop(null);
+    let mut found: Vec<Candidate> = promising
         .into_par_iter()
         .map(|held| joint(assembly, data, unit, held.score.effect, &held.shape))
         .collect();
@@ -241,7 +243,7 @@ pub(super) fn candidates<'a>(
     found.extend(rest);
     found.sort_by(|a, b| a.criterion().total_cmp(&b.criterion()));
     // In a tie the plainest is named: fewest parameters, then the plainest law of an effect, then what fits best.
-    let explained = found.first().map_or(0.0, |best| null.point.fitted.left - best.fitted.left);
+    let explained = found.first().map_or(0.0, |best| before - best.fitted.left);
     let best = found.first().map_or(0.0, Candidate::criterion);
     let tied = found.partition_point(|c| c.criterion() <= best + margin(TIE, explained));
     found[..tied].sort_by_key(|c| {

@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use crate::effect::{sampled, told};
+
 /// Nominal frequencies, Hz.
 const NOMINAL: [f64; 2] = [50.0, 60.0];
 /// Harmonics that are looked at.
@@ -10,14 +12,12 @@ const HARMONICS: usize = 3;
 const WANDER: f64 = 0.2;
 /// Steps on either side of the nominal frequency.
 const STEPS: i32 = 4;
-/// Least samples a period.
-const LEAST_RATE: f64 = 2.2;
 
 /// A residual without its sines at the mains' frequencies and their harmonics, as far as they are sampled.
 pub(super) fn without_hum(residual: &[f64], step: f64) -> Vec<f64> {
     let mut left = residual.to_vec();
     for nominal in NOMINAL {
-        if LEAST_RATE * nominal * step > 1.0 {
+        if !told(nominal, step) {
             continue;
         }
         let strongest = (-STEPS..=STEPS)
@@ -27,7 +27,7 @@ pub(super) fn without_hum(residual: &[f64], step: f64) -> Vec<f64> {
         let Some((frequency, wave)) = strongest else { continue };
         wave.take_off(&mut left, frequency, step);
         for k in (2..=HARMONICS).map(|k| k as f64 * frequency) {
-            if LEAST_RATE * k * step <= 1.0 {
+            if sampled(k, step) {
                 Wave::of(&left, k, step).take_off(&mut left, k, step);
             }
         }

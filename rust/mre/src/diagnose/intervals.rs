@@ -37,6 +37,7 @@ pub struct Estimates {
 /// Intervals at a fitted point of the unit box.
 pub(super) fn estimates(assembly: &Assembly, data: Data, unit: &[f64]) -> Estimates {
     let point = Point::at(assembly, data, unit.to_vec());
+    let fitted = point.fitted.clone();
     let system = point.with_tangents(assembly, data);
     let count = system.right.len();
     let scale: Vec<f64> = (0..count)
@@ -55,7 +56,7 @@ pub(super) fn estimates(assembly: &Assembly, data: Data, unit: &[f64]) -> Estima
     let coefficients: Vec<Estimate> = assembly
         .coefficients()
         .into_iter()
-        .zip(&point.fitted.coefficients)
+        .zip(&fitted.coefficients)
         .enumerate()
         .map(|(i, (p, value))| {
             let half = WIDTH * deviation(i);

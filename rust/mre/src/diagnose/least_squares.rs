@@ -3,7 +3,7 @@
 
 use super::monitor::Monitor;
 use super::noise::Noise;
-use super::normal::Rows;
+use super::normal::{Normal, Rows};
 use super::point::Point;
 use super::step::{Ridge, step};
 use crate::assembly::Assembly;
@@ -56,32 +56,37 @@ pub(super) fn refine(assembly: &Assembly, data: Data, start: &[f64]) -> Fitted {
 
 /// Descend with a limited number of steps.
 pub(super) fn refine_at_most(assembly: &Assembly, data: Data, start: &[f64], most: usize) -> Fitted {
-    let mut here = Point::at(assembly, data, start.to_vec());
+    let first = Point::at(assembly, data, start.to_vec());
+    let mut here = first.fitted.clone();
     if start.is_empty() {
-        return here.fitted;
+        return here;
     }
     let mut damping = 1e-3;
-    let mut full = None;
+    let mut ahead = Some(first);
+    let mut system = Normal::zeros(0);
     for _ in 0..most {
         if data.monitor.broken_off() {
             break;
         }
-        let system = full.get_or_insert_with(|| here.with_tangents(assembly, data));
+        if let Some(point) = ahead.take() {
+            system = point.with_tangents(assembly, data);
+        }
         let ridge = Ridge { coefficients: 1e-12, shapes: damping };
-        let (step, promise) = step(&system.gram, &system.right, ridge, &here.fitted.unit);
+        let (step, promise) = step(&system.gram, &system.right, ridge, &here.unit);
         if promise < LEAST_GAIN {
             break;
         }
         let unit: Vec<f64> =
-            here.fitted.unit.iter().zip(step.iter()).map(|(u, s)| (u + s).clamp(0.0, 1.0)).collect();
+            here.unit.iter().zip(step.iter()).map(|(u, s)| (u + s).clamp(0.0, 1.0)).collect();
         let next = Point::at(assembly, data, unit);
-        let gain = here.fitted.left - next.fitted.left;
+        let gain = here.left - next.fitted.left;
         if gain > 0.0 {
-            (here, full) = (next, None);
+            here = next.fitted.clone();
             damping = (damping * 0.2).max(1e-7);
             if gain < LEAST_GAIN {
                 break;
             }
+            ahead = Some(next);
         } else {
             damping *= 20.0;
             if damping > 1e4 {
@@ -89,5 +94,5 @@ pub(super) fn refine_at_most(assembly: &Assembly, data: Data, start: &[f64], mos
             }
         }
     }
-    here.fitted
+    here
 }

@@ -35,16 +35,16 @@ impl<'a> Null<'a> {
             return None;
         }
         let assembly = assembly.knowing(&assembly.physical(unit));
-        let point = Point::at(&assembly, data, unit.to_vec());
+        let mut point = Point::at(&assembly, data, unit.to_vec());
         let known = point.fitted.coefficients.len() + unit.len();
         let tangents: Vec<Vec<(usize, Vec<f64>)>> = point
             .tangents(&assembly, data)
             .into_iter()
-            .zip(&point.recordings)
+            .zip(&mut point.recordings)
             .enumerate()
             .map(|(r, (own, local))| {
                 let noisy = noisy(&assembly, data, r).enumerate().map(|(k, column)| (known + k, column));
-                local.columns.iter().cloned().chain(own).chain(noisy).collect()
+                std::mem::take(&mut local.columns).into_iter().chain(own).chain(noisy).collect()
             })
             .collect();
         let last = tangents.iter().flatten().map(|(place, _)| place + 1).max();

@@ -11,6 +11,8 @@ use crate::kernel::filter::dot;
 
 /// Step of the difference quotients, in the unit box.
 const STEP: f64 = 1e-4;
+/// Recordings whose columns are made at a time: as many as a kernel has lanes, and no more are kept.
+const TOGETHER: usize = 8;
 /// Fits at most until those samples are clipped whose force is beyond the level.
 const CLIPPINGS: usize = 12;
 
@@ -84,8 +86,8 @@ impl Point {
         Self { fitted, recordings, normal }
     }
 
-    /// Normal equations of coefficients and shapes together, for the residual.
-    pub(super) fn with_tangents(&self, assembly: &Assembly, data: Data) -> Normal {
+    /// Normal equations of coefficients and shapes together, for the residual; the samples are let go.
+    pub(super) fn with_tangents(self, assembly: &Assembly, data: Data) -> Normal {
         let (k, d) = (self.fitted.coefficients.len(), self.fitted.unit.len());
         let parts: Vec<Normal> = self
             .tangents(assembly, data)
@@ -146,25 +148,28 @@ impl Point {
         let places: Vec<(usize, usize)> = (0..count)
             .flat_map(|r| (0..moved.len()).filter(move |j| assembly.bears(*j, r)).map(move |j| (r, j)))
             .collect();
-        let jobs: Vec<(usize, &[f64])> = places.iter().map(|(r, j)| (*r, moved[*j].1.as_slice())).collect();
-        let changes: Vec<(usize, Vec<f64>)> = assembly
-            .columns_of(&jobs)
-            .into_par_iter()
-            .zip(&places)
-            .map(|(columns, (r, j))| {
-                let mut change = columns.measured(&self.fitted.coefficients);
-                for (value, before) in change.iter_mut().zip(&self.recordings[*r].force) {
-                    *value = (*value - before) / moved[*j].0;
-                    if !value.is_finite() {
-                        *value = 0.0;
-                    }
-                }
-                (k + j, whitened(data.noise, *r, &data.rows[*r], &change))
-            })
-            .collect();
         let mut found = vec![Vec::new(); count];
-        for (change, (r, _)) in changes.into_iter().zip(places) {
-            found[r].push(change);
+        for places in places.chunks(TOGETHER) {
+            let jobs: Vec<(usize, &[f64])> =
+                places.iter().map(|(r, j)| (*r, moved[*j].1.as_slice())).collect();
+            let changes: Vec<(usize, Vec<f64>)> = assembly
+                .columns_of(&jobs)
+                .into_par_iter()
+                .zip(places)
+                .map(|(columns, (r, j))| {
+                    let mut change = columns.measured(&self.fitted.coefficients);
+                    for (value, before) in change.iter_mut().zip(&self.recordings[*r].force) {
+                        *value = (*value - before) / moved[*j].0;
+                        if !value.is_finite() {
+                            *value = 0.0;
+                        }
+                    }
+                    (k + j, whitened(data.noise, *r, &data.rows[*r], &change))
+                })
+                .collect();
+            for (change, (r, _)) in changes.into_iter().zip(places) {
+                found[*r].push(change);
+            }
         }
         found
     }

@@ -6,7 +6,7 @@
 //! | f | frequency of the mains | Hz | 45 to 65 |
 //!
 //! Of the measurement, not of the device: a simulation leaves it out.
-//! Known limit: below 2.2 samples a period the hum is aliased and not looked for.
+//! Known limit: a hum that is aliased to below a quarter of the sampling rate is not looked for: motion is there.
 
 use std::f64::consts::TAU;
 
@@ -15,8 +15,23 @@ use crate::parameter::Parameter;
 
 /// Nominal frequencies, Hz.
 const NOMINAL: [f64; 2] = [50.0, 60.0];
-/// Samples a period that are needed.
-const LEAST_RATE: f64 = 2.2;
+/// A hum is told from motion above this share of the sampling rate, aliased or not, or where a period has so many
+/// samples.
+const FAST: f64 = 0.25;
+const SAMPLES: f64 = 2.2;
+/// At half the sampling rate a sine may vanish at all samples: below this size it is none.
+const VANISHED: f64 = 1e-6;
+
+/// True where a frequency in Hz is sampled well enough, so many seconds apart.
+pub(crate) fn sampled(frequency: f64, step: f64) -> bool {
+    SAMPLES * frequency * step <= 1.0
+}
+
+/// True where samples so many seconds apart show a hum of this frequency in Hz, and motion is elsewhere.
+pub(crate) fn told(frequency: f64, step: f64) -> bool {
+    let turns = frequency * step;
+    sampled(frequency, step) || (turns - turns.round()).abs() >= FAST
+}
 
 /// A hum with so many harmonics.
 #[derive(Debug, Clone, Copy)]
@@ -26,10 +41,12 @@ pub(super) struct Mains {
 }
 
 impl Mains {
-    /// The nominal frequencies whose highest harmonic is sampled well enough.
+    /// The nominal frequencies that are told from motion; folded harmonics may be one another.
     fn seen(self, sizes: &Sizes) -> Vec<f64> {
-        let highest = 1.0 / (LEAST_RATE * f64::from(self.harmonics) * sizes.step);
-        NOMINAL.into_iter().filter(|f| *f <= highest).collect()
+        let highest = f64::from(self.harmonics);
+        let told =
+            |f: &f64| if highest > 1.0 { sampled(highest * f, sizes.step) } else { told(*f, sizes.step) };
+        NOMINAL.into_iter().filter(told).collect()
     }
 }
 
@@ -46,7 +63,7 @@ impl Effect for Mains {
                 "F_measured = F + sum_k A_k sin(2 pi k f t) + B_k cos(2 pi k f t), k = 1 to 3"
             },
             reference: "general",
-            limit: "below 2.2 samples a period the hum is aliased and not looked for",
+            limit: "a hum that is aliased to below a quarter of the sampling rate is not looked for",
         }
     }
 
@@ -87,6 +104,11 @@ impl Effect for Mains {
                 let sin = scene.time.iter().map(|t| phase(t).sin()).collect();
                 [sin, scene.time.iter().map(|t| phase(t).cos()).collect::<Vec<f64>>()]
             })
+            .map(
+                |column| {
+                    if column.iter().all(|v| v.abs() < VANISHED) { vec![0.0; column.len()] } else { column }
+                },
+            )
             .collect()
     }
 }

@@ -51,6 +51,7 @@ mod work;
 pub use catalogue::{CATALOGUE, named};
 pub(crate) use drift::{DRIFT, MEAN};
 pub use initial_state::{InitialState, starts_in_motion};
+pub(crate) use mains::{sampled, told};
 pub(crate) use operators::slope;
 pub use quantisation::Quantisation;
 pub use scene::{Acceleration, Scene, Sizes};

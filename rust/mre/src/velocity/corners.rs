@@ -34,12 +34,17 @@ pub(super) fn corners(displacement: &[f64], smooth: &[f64], half: usize) -> Vec<
     // A motion that has corners may well start and end with one.
     let (start, end) = (0..half / 2, last - half / 2..last);
     let windows = middles.into_iter().map(|i| i - half..i + half + 1);
-    let windows = std::iter::once(start).chain(windows).chain(std::iter::once(end));
+    joined(std::iter::once(start).chain(windows).chain(std::iter::once(end)).collect())
+}
+
+/// The same samples as ranges in rising order that do not touch.
+pub(super) fn joined(mut ranges: Vec<Range<usize>>) -> Vec<Range<usize>> {
+    ranges.sort_by_key(|range| range.start);
     let mut found: Vec<Range<usize>> = Vec::new();
-    for window in windows {
+    for range in ranges {
         match found.last_mut() {
-            Some(known) if known.end >= window.start => known.end = window.end,
-            _ => found.push(window),
+            Some(known) if known.end >= range.start => known.end = known.end.max(range.end),
+            _ => found.push(range),
         }
     }
     found
@@ -61,7 +66,7 @@ fn broken(displacement: &[f64], i: usize, half: usize, reach: usize, variance: f
 }
 
 /// Variance of the noise in mm², from the middle of what smoothing takes off.
-fn variance(displacement: &[f64], smooth: &[f64], half: usize) -> f64 {
+pub(super) fn variance(displacement: &[f64], smooth: &[f64], half: usize) -> f64 {
     let mut squares: Vec<f64> = displacement.iter().zip(smooth).map(|(x, s)| (x - s).powi(2)).collect();
     let middle = squares.len() / 2;
     let median = *squares.select_nth_unstable_by(middle, f64::total_cmp).1;

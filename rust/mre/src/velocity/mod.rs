@@ -9,6 +9,7 @@
 //! Known limit: displacement noise that is itself smooth cannot be told from motion.
 
 mod corners;
+mod differences;
 mod local;
 mod low_pass;
 mod octaves;
@@ -18,7 +19,7 @@ mod window;
 use std::ops::Range;
 
 use crate::recording::even_step;
-use corners::corners;
+use corners::{corners, joined, variance};
 use local::{NARROWEST, TERMS};
 pub use octaves::{Calmed, calmed};
 use window::Window;
@@ -149,12 +150,19 @@ fn between_corners(derived: &mut Derived, time: &[f64], displacement: &[f64], wh
     if 2 * samples(&|own| own.calm() > CALMER * whole.calm()) < samples(&|_| true) {
         return;
     }
+    let noise = variance(displacement, &derived.displacement, whole.half).sqrt();
     for (part, own) in parts {
         let (velocity, smooth) = own.over(&time[part.clone()], &displacement[part.clone()]);
         derived.velocity[part.clone()].copy_from_slice(&velocity);
         derived.displacement[part].copy_from_slice(&smooth);
     }
-    derived.corners = corners;
+    let doubted = differences::missed(time, displacement, &derived.velocity, noise);
+    // What has a memory needs all of the way, there too.
+    for (i, difference) in &doubted {
+        derived.velocity[*i] = *difference;
+    }
+    let doubted = doubted.into_iter().map(|(i, _)| i..i + 1);
+    derived.corners = joined(corners.into_iter().chain(doubted).collect());
 }
 
 #[cfg(test)]

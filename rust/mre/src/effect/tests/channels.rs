@@ -163,6 +163,25 @@ fn drift_and_hum_are_of_the_measurement() {
 }
 
 #[test]
+fn a_hum_is_told_from_motion_where_it_is_sampled_or_folded_far_above_it() {
+    for (frequency, rate, wanted) in [
+        (50.0, 1000.0, true),
+        (50.0, 128.0, true),
+        (60.0, 128.0, true),
+        (60.0, 100.0, true),
+        (50.0, 100.0, true),
+        (60.0, 64.0, false),
+        (50.0, 50.0, false),
+    ] {
+        assert_eq!(crate::effect::told(frequency, 1.0 / rate), wanted, "{frequency} Hz at {rate} Hz");
+    }
+    // At half the sampling rate only one phase is left.
+    let stage = Stage::new(grid(1e-2, 4.0), |t| (t.sin(), t.cos()), None);
+    let hum = law("mains_interference", "fundamental").columns(&stage.scene(), &[50.0]);
+    assert!(hum[0].iter().all(|v| *v == 0.0) && (hum[1][7] + 1.0).abs() < 1e-9);
+}
+
+#[test]
 fn a_remanent_current_stays_as_the_current_falls() {
     let time = grid(1e-2, 4.0);
     let current: Vec<f64> = time.iter().map(|t| 2.0 - 2.0 * (0.5 * t - 1.0).abs()).collect();
