@@ -58,6 +58,35 @@ def test_a_blurred_corner_is_no_missing_physics(seed: int) -> None:
     assert found.to_dict()["left_out"] == found.left_out
 
 
+def ramps(seed: int) -> list[Recording]:
+    """Ramps and holds with corners rounded over a twentieth of a second, on a Kelvin-Voigt device."""
+    rng = np.random.default_rng([31, seed])
+    step = 1 / 128.0 / FINER
+    t = np.arange(round(18 / step)) * step
+    width = np.hanning(round(0.06 / step) + 2)[1:-1]
+    found = []
+    for k in range(4):
+        start = np.sort(rng.uniform(0.06, 0.95, 16)) * t[-1]
+        last = np.minimum(start + rng.uniform(0.08, 0.3, 16), np.append(start[1:], t[-1]) - 0.1)
+        places = np.column_stack([start, np.maximum(last, start + 0.02)]).ravel()
+        levels = np.append(0.0, rng.uniform(-2, 2, 16))
+        bent = np.interp(
+            t, np.append(0, places), np.append(0, np.column_stack([levels[:-1], levels[1:]]).ravel())
+        )
+        x = np.convolve(np.pad(bent, width.size, mode="edge"), width / width.sum(), "same")
+        x = x[width.size : -width.size]
+        force = (x + 0.15 * np.gradient(x, step))[::FINER]
+        noise = 0.01 * np.std(force) * lfilter([1], [1, -0.6], rng.normal(size=force.size))
+        found.append(Recording(t[::FINER], x[::FINER], force + noise, name=f"ramps {k}"))
+    return found
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_velocity_that_swings_beside_a_hold_is_no_free_play(seed: int) -> None:
+    found = diagnose(ramps(seed), base="kelvin_voigt", seed=1)
+    assert found.verdict == "adequate", found
+
+
 def test_of_a_smooth_motion_only_the_ends_are_left_out() -> None:
     t = np.arange(2000) / 200
     rng = np.random.default_rng(4)

@@ -1,5 +1,7 @@
 //! Where a derived velocity is not the slope of the displacement: next to a corner a polynomial may swing far from it.
 
+use super::stencil::grid;
+
 /// Weights of the differences over two, four and six steps: exact for polynomials up to the sixth degree.
 const WEIGHTS: [f64; 3] = [0.75, -0.15, 1.0 / 60.0];
 /// Standard deviation of their noise, over that of the displacement a step.
@@ -10,17 +12,17 @@ const NOISE: f64 = 5.0;
 const SHARE: f64 = 2.5e-3;
 
 /// Samples whose velocity in mm/s is further from such differences than they err, with the differences. The
-/// displacement in mm has `noise` of this size, rms, and an even grid.
+/// displacement in mm has `noise` of this size, rms; none where the times are not even.
 pub(super) fn missed(time: &[f64], displacement: &[f64], velocity: &[f64], noise: f64) -> Vec<(usize, f64)> {
-    let (reach, last) = (WEIGHTS.len(), time.len() - 1);
-    let step = (time[last] - time[0]) / last as f64;
+    let Some(step) = grid(time) else { return Vec::new() };
+    let reach = WEIGHTS.len();
     let largest = velocity.iter().map(|v| v.abs()).fold(0.0, f64::max);
     let tolerance = NOISE * CARRIED * noise / step + SHARE * largest;
     let difference = |i: usize| {
         let parts = WEIGHTS.iter().zip(1..).map(|(w, k)| w * (displacement[i + k] - displacement[i - k]));
         parts.sum::<f64>() / step
     };
-    (reach..(last + 1).saturating_sub(reach))
+    (reach..time.len().saturating_sub(reach))
         .map(|i| (i, difference(i)))
         .filter(|(i, difference)| (velocity[*i] - difference).abs() > tolerance)
         .collect()

@@ -147,7 +147,7 @@ fn between_corners(derived: &mut Derived, time: &[f64], displacement: &[f64], wh
     let samples = |of: &dyn Fn(&Window) -> bool| -> usize {
         parts.iter().filter(|(_, own)| of(own)).map(|(part, _)| part.len()).sum()
     };
-    if 2 * samples(&|own| own.calm() > CALMER * whole.calm()) < samples(&|_| true) {
+    if corners.is_empty() || 2 * samples(&|own| own.calm() > CALMER * whole.calm()) < samples(&|_| true) {
         return;
     }
     let noise = variance(displacement, &derived.displacement, whole.half).sqrt();

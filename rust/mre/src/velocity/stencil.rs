@@ -7,6 +7,14 @@ const ROUNDED: f64 = 1e-3;
 /// Samples at a time.
 const LANES: usize = 8;
 
+/// Step of an even grid in s; `None` where the times are not even.
+pub(super) fn grid(time: &[f64]) -> Option<f64> {
+    let last = time.len() - 1;
+    let step = (time[last] - time[0]) / last as f64;
+    let even = |(i, t): (usize, &f64)| (t - time[0] - step * i as f64).abs() <= ROUNDED * step;
+    time.iter().enumerate().all(even).then_some(step)
+}
+
 /// Weights of a window, from its middle on: those of the value are even and those of the slope odd.
 pub(super) struct Stencil {
     value: Vec<f64>,
@@ -17,12 +25,7 @@ pub(super) struct Stencil {
 impl Stencil {
     /// Of `half` samples on either side and so many `terms`; `None` where the times are not even.
     pub(super) fn new(time: &[f64], half: usize, terms: usize) -> Option<Self> {
-        let last = time.len() - 1;
-        let step = (time[last] - time[0]) / last as f64;
-        let even = |(i, t): (usize, &f64)| (t - time[0] - step * i as f64).abs() <= ROUNDED * step;
-        if !time.iter().enumerate().all(even) {
-            return None;
-        }
+        let step = grid(time)?;
         let places: Vec<f64> = (0..=2 * half).map(|j| j as f64 / half as f64 - 1.0).collect();
         let mut moments = [0.0; 2 * TERMS - 1];
         for place in &places {
