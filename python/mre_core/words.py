@@ -136,6 +136,9 @@ def hidden(detail: Mapping[str, Any], limit: str) -> str:
     return f"up to about {size} it has less than an even chance of being detected: {limit}"
 
 
+PLAINLY_UNEVEN = 1e-3
+"""Chance below which the size of a residual is said to follow the motion."""
+
 _ON = {
     "displacement": "the displacement",
     "velocity": "the velocity",
@@ -166,8 +169,15 @@ def unknown(found: Mapping[str, Any], nearest: Sequence[str]) -> str:
     )
     return (
         f"A force of about {_force(found['rms_N'])} rms over displacement and velocity is unexplained: {on};"
-        f" it is {shape} and {energy}.{_by_recording(found)}{told}"
+        f" it is {shape} and {energy}.{_by_recording(found)}{_uneven(found)}{told}"
     )
+
+
+def _uneven(found: Mapping[str, Any]) -> str:
+    """Say that what looks like noise follows the motion, where it plainly does."""
+    if found.get("p_even", 1.0) > PLAINLY_UNEVEN:
+        return ""
+    return " What looks like noise is larger at some displacements or speeds than at others, as noise is not."
 
 
 def _by_recording(found: Mapping[str, Any]) -> str:

@@ -102,6 +102,7 @@ fn unknown(u: &Unknown) -> Value {
         .collect();
     json!({
         "depends_on": depends_on, "odd": u.odd, "dissipative": u.dissipative, "rms_N": u.rms,
+        "p_even": u.p_even,
         "map": {"x_mm": u.map.displacement, "v_mm_s": u.map.velocity, "force_N": u.map.force},
     })
 }

@@ -11,6 +11,7 @@ use super::normal::Rows;
 use super::null::Null;
 use super::point::forces;
 use super::search::{Named, rms};
+use super::uneven::Uneven;
 use super::unnamed::{self, Unnamed};
 use super::verdict::{Evidence, Tests, Verdict};
 use crate::assembly::Assembly;
@@ -90,7 +91,9 @@ fn alone<'a>(
     let drifts = named.assembly.effects().iter().any(|e| e.slow().is_some() && e.of_the_measurement());
     let surpassed = effects > 0 && !drifts && of_all.improvement > improvement + CLEAR;
     let wandering = last.as_ref().map_or(Mismatch::NONE, Null::wandering);
-    let tests = Tests { first, rest, smooth: of_rest.p_value, wandering, explained, change, surpassed };
+    let uneven = last.as_ref().map_or(Uneven::NONE, Null::uneven);
+    let tests =
+        Tests { first, rest, smooth: of_rest.p_value, wandering, uneven, explained, change, surpassed };
     let evidence = Evidence::new(&tests, &named, begun.noise.hidden(), false_alarm);
     let verdict = evidence.verdict(effects, hum > 0);
     Judged { named, base, evidence, verdict }

@@ -71,7 +71,12 @@ pub(super) struct Projected {
 
 impl Projected {
     /// Columns that the projection leaves.
-    fn of(gram: &nalgebra::DMatrix<f64>, right: &DVector<f64>, squares: &[f64], chosen: &[usize]) -> Self {
+    pub(super) fn of(
+        gram: &nalgebra::DMatrix<f64>,
+        right: &DVector<f64>,
+        squares: &[f64],
+        chosen: &[usize],
+    ) -> Self {
         let kept: Vec<usize> =
             chosen.iter().copied().filter(|i| gram[(*i, *i)] > SMALLEST_SHARE * squares[*i]).collect();
         let scale: Vec<f64> = kept.iter().map(|i| 1.0 / gram[(*i, *i)].sqrt()).collect();
@@ -84,7 +89,7 @@ impl Projected {
     }
 
     /// What the columns take off together.
-    fn mismatch(self) -> Mismatch {
+    pub(super) fn mismatch(self) -> Mismatch {
         if self.right.is_empty() {
             return Mismatch::NONE;
         }

@@ -52,6 +52,7 @@ mod slow;
 mod splits;
 mod starts;
 mod step;
+mod uneven;
 mod unknown;
 mod unnamed;
 mod verdict;

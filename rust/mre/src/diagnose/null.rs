@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::least_squares::Data;
+use super::noise::Noise;
 use super::normal::whitened;
 use super::point::Point;
 use crate::assembly::Assembly;
@@ -75,6 +76,11 @@ impl<'a> Null<'a> {
     /// True where the search was broken off.
     pub(super) fn broken_off(&self) -> bool {
         self.data.monitor.broken_off()
+    }
+
+    /// The noise under which columns are projected.
+    pub(super) fn noise(&self) -> &Noise {
+        self.data.noise
     }
 
     /// The model whose tangents are projected off.

@@ -50,6 +50,8 @@ pub struct Unknown {
     pub dissipative: f64,
     /// Rms of the map's force over the recordings, N.
     pub rms: f64,
+    /// Chance that the size of what is left has nothing to do with the motion.
+    pub p_even: f64,
 }
 
 /// Describe what is left beside a fitted model.
@@ -66,7 +68,7 @@ pub(super) fn describe(null: &Null) -> Unknown {
     depends_on.retain(|d| d.share > 0.0 && d.share >= WORTH_NAMING * strongest);
     depends_on.truncate(MOST);
     let (map, odd, dissipative, rms) = surface(null);
-    Unknown { depends_on, map, odd, dissipative, rms }
+    Unknown { depends_on, map, odd, dissipative, rms, p_even: null.uneven().p_value }
 }
 
 /// Hats on a grid of displacement and velocity that bear on a state, with their values.

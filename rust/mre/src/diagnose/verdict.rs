@@ -3,6 +3,7 @@
 use super::candidates::by_effect;
 use super::missing::Mismatch;
 use super::search::{Named, WAYS};
+use super::uneven::Uneven;
 
 /// Shares of the rest above which names are not trusted, for one effect and for several: effects that are not
 /// there, bent towards one that is in no catalogue, leave more. Several bend further, and so have to fit better.
@@ -13,10 +14,13 @@ const FORM: [f64; 2] = [0.02, 0.0025];
 const PLAIN_FORM: f64 = 0.075;
 
 /// Tests of any mismatch.
-const OF_ANY: f64 = 3.0;
+const OF_ANY: f64 = 4.0;
 
 /// Names are doubted only where the rest is beyond chance by far: a small one may be the noise's.
 const BEYOND_CHANCE: f64 = 1e-3;
+
+/// The noise has swallowed a mismatch where its size follows the motion beyond chance by as far.
+const PLAINLY_UNEVEN: f64 = 1e-6;
 
 /// The verdicts of `diagnosis.json`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -74,6 +78,8 @@ pub(super) struct Tests {
     pub(super) smooth: f64,
     /// A stiffness that comes and goes in each recording on its own, beside the final model.
     pub(super) wandering: Mismatch,
+    /// The size of what is left, over the motion.
+    pub(super) uneven: Uneven,
     /// Squared standard deviations that the effects explain.
     pub(super) explained: f64,
     /// Rms in N of the force that the best further candidate would add.
@@ -84,13 +90,14 @@ pub(super) struct Tests {
 
 impl Evidence {
     pub(super) fn new(tests: &Tests, named: &Named, plain: bool, false_alarm: f64) -> Self {
-        let Tests { first, rest, smooth, wandering, explained, change, surpassed } = *tests;
+        let Tests { first, rest, smooth, wandering, uneven, explained, change, surpassed } = *tests;
         let catalogue = by_effect(&named.scores);
         let holm = catalogue.iter().map(|(_, p)| *p).fold(1.0, f64::min) * catalogue.len() as f64;
-        let any = OF_ANY * rest.cautious().min(smooth).min(wandering.p_value);
+        let any = OF_ANY * rest.cautious().min(smooth).min(wandering.p_value).min(uneven.p_value);
         let p_rest = (WAYS * any.min(holm)).min(1.0);
         let gain = named.next.as_ref().map_or(0.0, |n| (named.fitted.left - n.fitted.left).max(0.0));
-        let left = rest.excess().max(wandering.excess()).max(gain);
+        let swallowed = if uneven.p_value < PLAINLY_UNEVEN { uneven.swallowed } else { 0.0 };
+        let left = rest.excess().max(wandering.excess()).max(gain).max(swallowed);
         let share = if left > 0.0 { left / (left + explained) } else { 0.0 };
         let significant = p_rest <= false_alarm;
         Self {

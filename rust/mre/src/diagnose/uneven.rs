@@ -1,0 +1,184 @@
+//! Noise does not know the motion: what is left and is larger at some displacements, velocities or accelerations than
+//! at others is not noise alone. An autoregression takes much of a fast mismatch for noise, but not this.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::gaps::LeftOut;
+use super::missing::Projected;
+use super::null::Null;
+use crate::kernel::filter::dot;
+
+/// Stretches of the displacement.
+const ACROSS: usize = 8;
+/// Columns: the ends of the stretches, and the squares of velocity and acceleration.
+const COLUMNS: usize = ACROSS + 3;
+/// Squares above this many variances count as this many: heavy tails are noise too.
+const LARGEST: f64 = 9.0;
+/// Samples over which sizes may be correlated.
+const MEMORY: usize = 50;
+/// Rounding to steps above this share of the noise depends on the motion.
+const COARSE: f64 = 0.3;
+/// Ridge on ones on the diagonal.
+const RIDGE: f64 = 1e-6;
+/// Samples that tell something, at least.
+const FEWEST: usize = 200;
+
+/// Share of the noise that is not noise, below which it may be chance.
+const LEAST: f64 = 0.15;
+/// The noise's own size is found where what is left is smaller than at all but this share of the samples.
+const QUIET: f64 = 0.1;
+
+/// Outcome of the test.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Uneven {
+    /// Chance of as much under the null, for a decision.
+    pub(super) p_value: f64,
+    /// Squared standard deviations that the noise has swallowed.
+    pub(super) swallowed: f64,
+}
+
+impl Uneven {
+    /// No test could be made.
+    pub(super) const NONE: Self = Self { p_value: 1.0, swallowed: 0.0 };
+}
+
+/// Squares of what is left of a recording and functions of its motion, both about their means.
+struct Sizes {
+    /// Of unit variance.
+    squares: Vec<f64>,
+    /// Standard deviation of the squares over their mean.
+    spread: f64,
+    columns: Vec<Vec<f64>>,
+}
+
+impl Null<'_> {
+    /// Test whether the size of what is left follows the motion.
+    ///
+    /// A noise that a mismatch hides is not known: there is no test.
+    pub(super) fn uneven(&self) -> Uneven {
+        if self.noise().hidden() {
+            return Uneven::NONE;
+        }
+        let recordings = self.assembly().campaign().recordings().len();
+        let all: Vec<Sizes> = (0..recordings).filter_map(|r| self.sizes_over_motion(r)).collect();
+        let (mut gram, mut right) = (DMatrix::zeros(COLUMNS, COLUMNS), DVector::zeros(COLUMNS));
+        for own in &all {
+            gram += own.covariance();
+            right += DVector::from_fn(COLUMNS, |i, _| dot(&own.columns[i], &own.squares));
+        }
+        let squares: Vec<f64> = (0..COLUMNS).map(|i| gram[(i, i)]).collect();
+        let chosen: Vec<usize> = (0..COLUMNS).collect();
+        let p_value = Projected::of(&gram, &right, &squares, &chosen).mismatch().cautious();
+        Uneven { p_value, swallowed: swallowed(&all, &right) }
+    }
+
+    fn sizes_over_motion(&self, r: usize) -> Option<Sizes> {
+        let (noise, campaign) = (self.noise(), self.assembly().campaign());
+        let recording = &campaign.recordings()[r];
+        let (coefficients, deviation) = noise.autoregression(r);
+        let (start, memory) = (recording.scored().start.max(noise.lost(r)), coefficients.len());
+        let left = &self.point.recordings[r].residual;
+        let measured = &recording.force().unwrap_or_default()[recording.scored()];
+        if start + left.len() != recording.scored().end || step_of(measured) > COARSE * deviation {
+            return None;
+        }
+        let mut counts = vec![true; left.len()];
+        for gap in LeftOut::of(campaign, r).ranges {
+            let place = |i: usize| i.clamp(start, start + left.len()) - start;
+            counts[place(gap.start)..place(gap.end + memory)].fill(false);
+        }
+        let squares: Vec<f64> = left.iter().map(|e| (e * e).min(LARGEST)).collect();
+        let mean = squares.iter().sum::<f64>() / squares.len() as f64;
+        let squares = centred(squares, &counts)?;
+        let deviation = (dot(&squares, &squares) / squares.len() as f64).sqrt();
+        let columns = self.functions_of_the_motion(r, start..start + left.len());
+        Some(Sizes {
+            squares: squares.iter().map(|s| s / deviation).collect(),
+            spread: deviation / mean,
+            columns: columns.into_iter().map(|column| centred(column, &counts)).collect::<Option<_>>()?,
+        })
+    }
+
+    /// Hats over the displacement, and the squares of velocity and acceleration, over their largest.
+    fn functions_of_the_motion(&self, r: usize, rows: std::ops::Range<usize>) -> Vec<Vec<f64>> {
+        let scene = self.scene(r);
+        let sizes = scene.sizes;
+        let (x, v) = (&scene.displacement[rows.clone()], &scene.velocity[rows]);
+        let hat = |k: usize| {
+            let place = |x: &f64| (x / sizes.displacement + 1.0) * 0.5 * ACROSS as f64;
+            x.iter().map(|x| (1.0 - (place(x) - k as f64).abs()).max(0.0)).collect()
+        };
+        let last = v.len() - 1;
+        let slope = |i: usize| v[(i + 1).min(last)] - v[i.saturating_sub(1)];
+        let square = |values: Vec<f64>| {
+            let largest = values.iter().fold(f64::MIN_POSITIVE, |far, v| far.max(v.abs()));
+            values.into_iter().map(|v| (v / largest).powi(2)).collect()
+        };
+        let mut columns: Vec<Vec<f64>> = (0..=ACROSS).map(hat).collect();
+        columns.push(square(v.to_vec()));
+        columns.push(square((0..v.len()).map(slope).collect()));
+        columns
+    }
+}
+
+impl Sizes {
+    /// Covariance of the products of the columns with the squares under the null; neighbouring squares are correlated.
+    fn covariance(&self) -> DMatrix<f64> {
+        let (columns, last) = (&self.columns, self.squares.len());
+        let mut gram = DMatrix::from_fn(COLUMNS, COLUMNS, |i, j| dot(&columns[i], &columns[j]));
+        for lag in 1..MEMORY.min(last / 4) {
+            let share = 1.0 - lag as f64 / MEMORY as f64;
+            let correlation = share * dot(&self.squares[lag..], &self.squares[..last - lag]) / last as f64;
+            gram += DMatrix::from_fn(COLUMNS, COLUMNS, |i, j| {
+                let [a, b] = [&columns[i], &columns[j]];
+                correlation * (dot(&a[lag..], &b[..last - lag]) + dot(&b[lag..], &a[..last - lag]))
+            });
+        }
+        gram
+    }
+}
+
+/// Squared standard deviations in what is left beyond those of where the motion leaves least.
+fn swallowed(all: &[Sizes], right: &DVector<f64>) -> f64 {
+    let mut gram = DMatrix::<f64>::zeros(COLUMNS, COLUMNS);
+    for own in all {
+        gram += DMatrix::from_fn(COLUMNS, COLUMNS, |i, j| dot(&own.columns[i], &own.columns[j]));
+    }
+    for i in 0..COLUMNS {
+        gram[(i, i)] += RIDGE * gram[(i, i)] + f64::MIN_POSITIVE;
+    }
+    let Some(factor) = gram.cholesky() else { return 0.0 };
+    let weights = factor.solve(right);
+    let mut sizes: Vec<f64> = Vec::new();
+    for own in all {
+        let follows = |i: usize| (0..COLUMNS).map(|k| weights[k] * own.columns[k][i]).sum::<f64>();
+        sizes.extend((0..own.squares.len()).map(|i| 1.0 + own.spread * follows(i)));
+    }
+    if sizes.is_empty() {
+        return 0.0;
+    }
+    let place = (QUIET * sizes.len() as f64) as usize;
+    let (_, quiet, _) = sizes.select_nth_unstable_by(place, f64::total_cmp);
+    let share = 1.0 - quiet.max(0.0);
+    if share > LEAST { share * sizes.len() as f64 } else { 0.0 }
+}
+
+/// Values about the mean of those that count, the others zero; `None` of too few.
+fn centred(mut values: Vec<f64>, counts: &[bool]) -> Option<Vec<f64>> {
+    let count = counts.iter().filter(|c| **c).count();
+    if count < FEWEST {
+        return None;
+    }
+    let mean = values.iter().zip(counts).filter(|(_, c)| **c).map(|(v, _)| v).sum::<f64>() / count as f64;
+    for (value, counts) in values.iter_mut().zip(counts) {
+        *value = if *counts { *value - mean } else { 0.0 };
+    }
+    Some(values)
+}
+
+/// The smallest difference between two values of a series.
+fn step_of(series: &[f64]) -> f64 {
+    let mut sorted = series.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted.windows(2).map(|pair| pair[1] - pair[0]).filter(|gap| *gap > 0.0).fold(f64::INFINITY, f64::min)
+}
