@@ -10,6 +10,7 @@ use super::needless::beside_a_hum;
 use super::normal::Rows;
 use super::null::Null;
 use super::point::forces;
+use super::resolution::nothing_left;
 use super::search::{Named, rms};
 use super::uneven::Uneven;
 use super::unnamed::{self, Unnamed};
@@ -75,7 +76,11 @@ fn alone<'a>(
     let hummed = beside_the_hum(begun, &named, data);
     let mismatch =
         |null: Option<&Null>| null.map(Null::generic).as_ref().map_or(Mismatch::NONE, Generic::mismatch);
-    let (first, rest) = (mismatch(alone.as_ref()), mismatch(last.as_ref()));
+    let nothing = |assembly: &Assembly<'a>, fitted: &Fitted| nothing_left(assembly, data, fitted);
+    let nothing_at_first = nothing(&begun.assembly, &base);
+    let nothing_left = nothing(&named.assembly, &named.fitted);
+    let first = if nothing_at_first { Mismatch::NONE } else { mismatch(alone.as_ref()) };
+    let rest = mismatch(last.as_ref());
     let smooth = |null: Option<&Null>| null.map_or(Unnamed::NONE, |null| unnamed::best(null, base.rows));
     let all = hummed.as_ref().map(|c| beside(&c.assembly, &c.fitted));
     let of_all = smooth(all.as_ref().unwrap_or(&alone).as_ref());
@@ -92,8 +97,17 @@ fn alone<'a>(
     let surpassed = effects > 0 && !drifts && of_all.improvement > improvement + CLEAR;
     let wandering = last.as_ref().map_or(Mismatch::NONE, Null::wandering);
     let uneven = last.as_ref().map_or(Uneven::NONE, Null::uneven);
-    let tests =
-        Tests { first, rest, smooth: of_rest.p_value, wandering, uneven, explained, change, surpassed };
+    let tests = Tests {
+        first,
+        rest,
+        smooth: of_rest.p_value,
+        wandering,
+        uneven,
+        explained,
+        change,
+        surpassed,
+        nothing_left,
+    };
     let evidence = Evidence::new(&tests, &named, begun.noise.hidden(), false_alarm);
     let verdict = evidence.verdict(effects, hum > 0);
     Judged { named, base, evidence, verdict }

@@ -3,6 +3,7 @@
 use super::candidates::{Candidate, by_effect, candidates, fit, noise_left, scores};
 use super::monitor::Stage;
 use super::noise::Noise;
+use super::resolution::nothing_left;
 use super::search::{FEW, LATER, Named, REFITTED, Search, WAYS};
 use crate::assembly::Assembly;
 
@@ -23,10 +24,9 @@ impl<'a> Search<'_, 'a> {
         let data = self.data(&noise);
         let Candidate { assembly, fitted } = fit(assembly, data, &first.unit);
         let found = scores(&assembly, data, &fitted.unit, self.settings);
-        let mut tried = self
-            .monitor
-            .stage(Stage::Candidates, || candidates(&assembly, data, &fitted.unit, &found, REFITTED))?
-            .into_iter();
+        let beside = |most: usize| candidates(&assembly, data, &fitted.unit, &found, most);
+        let most = if nothing_left(&assembly, data, &fitted) { 0 } else { REFITTED };
+        let mut tried = self.monitor.stage(Stage::Candidates, || beside(most))?.into_iter();
         let next = tried.next();
         let mut later: Vec<Candidate> = Vec::new();
         // Likelihoods of a noise that is not known may put an effect first that fails on other data.

@@ -44,6 +44,7 @@ mod point;
 mod prove;
 mod realisation;
 mod refitted;
+mod resolution;
 mod run;
 mod screen;
 mod search;

@@ -6,6 +6,7 @@ use nalgebra::{DMatrix, DVector};
 use super::gaps::LeftOut;
 use super::missing::Projected;
 use super::null::Null;
+use super::resolution::step_of;
 use crate::kernel::filter::dot;
 
 /// Stretches of the displacement.
@@ -16,13 +17,14 @@ const COLUMNS: usize = ACROSS + 3;
 const LARGEST: f64 = 9.0;
 /// Samples over which sizes may be correlated.
 const MEMORY: usize = 50;
+/// Correlations below so many standard deviations are none.
+const BY_CHANCE: f64 = 2.0;
 /// Rounding to steps above this share of the noise depends on the motion.
 const COARSE: f64 = 0.3;
 /// Ridge on ones on the diagonal.
 const RIDGE: f64 = 1e-6;
 /// Samples that tell something, at least.
 const FEWEST: usize = 200;
-
 /// Share of the noise that is not noise, below which it may be chance.
 const LEAST: f64 = 0.15;
 /// The noise's own size is found where what is left is smaller than at all but this share of the samples.
@@ -61,6 +63,9 @@ impl Null<'_> {
         }
         let recordings = self.assembly().campaign().recordings().len();
         let all: Vec<Sizes> = (0..recordings).filter_map(|r| self.sizes_over_motion(r)).collect();
+        if all.is_empty() {
+            return Uneven::NONE;
+        }
         let (mut gram, mut right) = (DMatrix::zeros(COLUMNS, COLUMNS), DVector::zeros(COLUMNS));
         for own in &all {
             gram += own.covariance();
@@ -91,6 +96,9 @@ impl Null<'_> {
         let mean = squares.iter().sum::<f64>() / squares.len() as f64;
         let squares = centred(squares, &counts)?;
         let deviation = (dot(&squares, &squares) / squares.len() as f64).sqrt();
+        if deviation.is_nan() || deviation <= 0.0 {
+            return None;
+        }
         let columns = self.functions_of_the_motion(r, start..start + left.len());
         Some(Sizes {
             squares: squares.iter().map(|s| s / deviation).collect(),
@@ -127,12 +135,15 @@ impl Sizes {
         let (columns, last) = (&self.columns, self.squares.len());
         let mut gram = DMatrix::from_fn(COLUMNS, COLUMNS, |i, j| dot(&columns[i], &columns[j]));
         for lag in 1..MEMORY.min(last / 4) {
+            let correlation = dot(&self.squares[lag..], &self.squares[..last - lag]) / last as f64;
+            if correlation.abs() < BY_CHANCE / (last as f64).sqrt() {
+                continue;
+            }
             let share = 1.0 - lag as f64 / MEMORY as f64;
-            let correlation = share * dot(&self.squares[lag..], &self.squares[..last - lag]) / last as f64;
-            gram += DMatrix::from_fn(COLUMNS, COLUMNS, |i, j| {
-                let [a, b] = [&columns[i], &columns[j]];
-                correlation * (dot(&a[lag..], &b[..last - lag]) + dot(&b[lag..], &a[..last - lag]))
+            let later = DMatrix::from_fn(COLUMNS, COLUMNS, |i, j| {
+                correlation * share * dot(&columns[i][lag..], &columns[j][..last - lag])
             });
+            gram += &later + later.transpose();
         }
         gram
     }
@@ -154,9 +165,6 @@ fn swallowed(all: &[Sizes], right: &DVector<f64>) -> f64 {
         let follows = |i: usize| (0..COLUMNS).map(|k| weights[k] * own.columns[k][i]).sum::<f64>();
         sizes.extend((0..own.squares.len()).map(|i| 1.0 + own.spread * follows(i)));
     }
-    if sizes.is_empty() {
-        return 0.0;
-    }
     let place = (QUIET * sizes.len() as f64) as usize;
     let (_, quiet, _) = sizes.select_nth_unstable_by(place, f64::total_cmp);
     let share = 1.0 - quiet.max(0.0);
@@ -174,11 +182,4 @@ fn centred(mut values: Vec<f64>, counts: &[bool]) -> Option<Vec<f64>> {
         *value = if *counts { *value - mean } else { 0.0 };
     }
     Some(values)
-}
-
-/// The smallest difference between two values of a series.
-fn step_of(series: &[f64]) -> f64 {
-    let mut sorted = series.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    sorted.windows(2).map(|pair| pair[1] - pair[0]).filter(|gap| *gap > 0.0).fold(f64::INFINITY, f64::min)
 }

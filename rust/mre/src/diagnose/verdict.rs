@@ -86,15 +86,18 @@ pub(super) struct Tests {
     pub(super) change: f64,
     /// True where a smooth force that no effect has explains more.
     pub(super) surpassed: bool,
+    /// True where no more is left than the rounding of the force.
+    pub(super) nothing_left: bool,
 }
 
 impl Evidence {
     pub(super) fn new(tests: &Tests, named: &Named, plain: bool, false_alarm: f64) -> Self {
-        let Tests { first, rest, smooth, wandering, uneven, explained, change, surpassed } = *tests;
+        let Tests { first, rest, smooth, wandering, uneven, explained, change, surpassed, nothing_left } =
+            *tests;
         let catalogue = by_effect(&named.scores);
         let holm = catalogue.iter().map(|(_, p)| *p).fold(1.0, f64::min) * catalogue.len() as f64;
         let any = OF_ANY * rest.cautious().min(smooth).min(wandering.p_value).min(uneven.p_value);
-        let p_rest = (WAYS * any.min(holm)).min(1.0);
+        let p_rest = if nothing_left { 1.0 } else { (WAYS * any.min(holm)).min(1.0) };
         let gain = named.next.as_ref().map_or(0.0, |n| (named.fitted.left - n.fitted.left).max(0.0));
         let swallowed = if uneven.p_value < PLAINLY_UNEVEN { uneven.swallowed } else { 0.0 };
         let left = rest.excess().max(wandering.excess()).max(gain).max(swallowed);
