@@ -18,6 +18,8 @@ pub(crate) struct Doubts {
     /// Parts of the displacement, mm, and of the velocity, mm/s, that are noise or may hold some. The force does not
     /// follow it, and an effect that attenuates what is fast would seem to explain that.
     pub(crate) noisy: Vec<[Vec<f64>; 2]>,
+    /// True where the motion has corners: its velocity errs more near them than elsewhere, beyond what is left out.
+    pub(crate) cornered: bool,
 }
 
 /// A recording whose displacement is the one that its velocity is the slope of, without the noise of the two.
@@ -30,11 +32,12 @@ pub(super) fn of_one_motion(recording: &Recording) -> (Arc<Recording>, Doubts) {
         let derived = velocity::from_displacement(time, x);
         if derived.corners.is_empty() {
             let velocity::Calmed { displacement, velocity, noisy } = velocity::calmed(time, x, &derived);
-            (displacement, velocity, Doubts { left_out: ends(time.len(), derived.half), noisy })
+            let left_out = ends(time.len(), derived.half);
+            (displacement, velocity, Doubts { left_out, noisy, cornered: false })
         } else {
             // Across a corner a longer window takes off motion.
             let velocity::Derived { displacement, velocity, corners, .. } = derived;
-            (displacement, velocity, Doubts { left_out: corners, noisy: Vec::new() })
+            (displacement, velocity, Doubts { left_out: corners, noisy: Vec::new(), cornered: true })
         }
     } else {
         let v = velocity::smoothed(time, v);

@@ -79,6 +79,9 @@ impl Null<'_> {
 
     fn sizes_over_motion(&self, r: usize) -> Option<Sizes> {
         let (noise, campaign) = (self.noise(), self.assembly().campaign());
+        if campaign.doubts()[r].cornered {
+            return None;
+        }
         let recording = &campaign.recordings()[r];
         let (coefficients, deviation) = noise.autoregression(r);
         let (start, memory) = (recording.scored().start.max(noise.lost(r)), coefficients.len());
