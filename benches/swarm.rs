@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use mre::fitness::Problem;
-use mre::swarm::{Budget, Crowd, FishSettings, FishSwarm, Neighbourhood, Schedule, Search, run};
+use mre::swarm::{Budget, Crowd, FishSettings, FishSwarm, Neighbourhood, Schedule, Search, awake, run};
 use mre_bench::problem;
 
 fn mafsa(problem: &Problem, iterations: usize) {
@@ -36,7 +36,7 @@ fn on_threads(c: &mut Criterion, name: &str, model: &str, iterations: usize) {
     for threads in [1, 2] {
         let Ok(pool) = rayon::ThreadPoolBuilder::new().num_threads(threads).build() else { continue };
         group.bench_function(BenchmarkId::from_parameter(threads), |b| {
-            b.iter(|| pool.install(|| mafsa(&problem, iterations)));
+            b.iter(|| pool.install(|| awake(|| mafsa(&problem, iterations))));
         });
     }
     group.finish();

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::sync::{Mutex, MutexGuard};
 
 use mre::parameter::Bounds;
-use mre::swarm::{FishSwarm, ParticleSwarm, Stream, Swarm as Core, run};
+use mre::swarm::{FishSwarm, ParticleSwarm, Stream, Swarm as Core, awake, run};
 use numpy::{PyArray1, PyArray2};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
@@ -172,7 +172,7 @@ impl Swarm {
             let mut evaluate =
                 |unit: &[f64], costs: &mut [f64]| problem.inner.fitness_in_box(unit, costs, link.cancel());
             let mut monitor = link;
-            run(swarm, &mut evaluate, d, &budget, &mut monitor)
+            awake(|| run(swarm, &mut evaluate, d, &budget, &mut monitor))
         })?;
         Ok(name_of(reason, ended))
     }

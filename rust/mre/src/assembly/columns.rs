@@ -302,12 +302,7 @@ fn group_columns(groups: &[Group], jobs: &[(usize, &[f64], &Recording)]) -> Vec<
 
 fn scale(factors: &Factors, parts: &[Part], columns: &mut [Vec<f64>]) {
     for (column, part) in columns.iter_mut().zip(parts) {
-        let factor = match (part, &factors.damping) {
-            (Part::Stiffness, _) => &factors.stiffness,
-            (Part::Hysteretic, _) if factors.hysteretic => &factors.stiffness,
-            (Part::Damping, Some(damping)) => damping,
-            _ => continue,
-        };
+        let Some(factor) = factors.on(*part) else { continue };
         for (value, factor) in column.iter_mut().zip(factor) {
             *value *= factor;
         }

@@ -157,10 +157,5 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
 }
 
 fn factor(factors: &Factors, part: Part, i: usize) -> f64 {
-    match part {
-        Part::Stiffness => factors.stiffness[i],
-        Part::Hysteretic if factors.hysteretic => factors.stiffness[i],
-        Part::Damping => factors.damping.as_ref().map_or(1.0, |d| d[i]),
-        Part::Hysteretic | Part::Offset => 1.0,
-    }
+    factors.on(part).map_or(1.0, |own| own[i])
 }

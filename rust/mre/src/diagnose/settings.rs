@@ -22,7 +22,7 @@ impl Settings {
     pub fn new(false_alarm: f64, seed: u64, ruled_out: &[String], base: &Base) -> Self {
         let hysteretic = base.is_hysteretic();
         let open = |e: &&'static dyn Effect| {
-            (hysteretic || !e.on_springs_alone()) && !ruled_out.iter().any(|id| id == e.about().effect)
+            (hysteretic || !e.on_a_part()) && !ruled_out.iter().any(|id| id == e.about().effect)
         };
         let laws = CATALOGUE.iter().copied().filter(open).collect();
         Self { false_alarm, seed, laws, limits: GivenLimits::default() }

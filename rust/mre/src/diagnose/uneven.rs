@@ -1,5 +1,6 @@
-//! Noise does not know the motion: what is left and is larger at some displacements, velocities or accelerations than
-//! at others is not noise alone. An autoregression takes much of a fast mismatch for noise, but not this.
+//! Noise does not know the motion, nor when it is: what is left and is larger at some displacements, velocities,
+//! accelerations or moments of a recording than at others is not noise alone. An autoregression takes much of a fast
+//! mismatch for noise, but not this.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -11,8 +12,10 @@ use crate::kernel::filter::dot;
 
 /// Stretches of the displacement.
 const ACROSS: usize = 8;
+/// Stretches of the time of each recording.
+const LONG: usize = 6;
 /// Columns: the ends of the stretches, and the squares of velocity and acceleration.
-const COLUMNS: usize = ACROSS + 3;
+const COLUMNS: usize = ACROSS + LONG + 4;
 /// Squares above this many variances count as this many: heavy tails are noise too.
 const LARGEST: f64 = 9.0;
 /// Samples over which sizes may be correlated.
@@ -110,22 +113,24 @@ impl Null<'_> {
         })
     }
 
-    /// Hats over the displacement, and the squares of velocity and acceleration, over their largest.
+    /// Hats over the displacement and over time, and the squares of velocity and acceleration, over their largest.
     fn functions_of_the_motion(&self, r: usize, rows: std::ops::Range<usize>) -> Vec<Vec<f64>> {
         let scene = self.scene(r);
         let sizes = scene.sizes;
         let (x, v) = (&scene.displacement[rows.clone()], &scene.velocity[rows]);
-        let hat = |k: usize| {
-            let place = |x: &f64| (x / sizes.displacement + 1.0) * 0.5 * ACROSS as f64;
-            x.iter().map(|x| (1.0 - (place(x) - k as f64).abs()).max(0.0)).collect()
-        };
         let last = v.len() - 1;
+        let place = |i: usize| (x[i] / sizes.displacement + 1.0) * 0.5 * ACROSS as f64;
+        let moment = |i: usize| (LONG * i) as f64 / last as f64;
         let slope = |i: usize| v[(i + 1).min(last)] - v[i.saturating_sub(1)];
         let square = |values: Vec<f64>| {
             let largest = values.iter().fold(f64::MIN_POSITIVE, |far, v| far.max(v.abs()));
             values.into_iter().map(|v| (v / largest).powi(2)).collect()
         };
-        let mut columns: Vec<Vec<f64>> = (0..=ACROSS).map(hat).collect();
+        let hat = |at: &dyn Fn(usize) -> f64, k: usize| {
+            (0..=last).map(|i| (1.0 - (at(i) - k as f64).abs()).max(0.0)).collect()
+        };
+        let across = (0..=ACROSS).map(|k| hat(&place, k));
+        let mut columns: Vec<Vec<f64>> = across.chain((0..=LONG).map(|k| hat(&moment, k))).collect();
         columns.push(square(v.to_vec()));
         columns.push(square((0..v.len()).map(slope).collect()));
         columns

@@ -9,7 +9,7 @@ use super::uneven::Uneven;
 /// there, bent towards one that is in no catalogue, leave more. Several bend further, and so have to fit better.
 const TRUSTED: [f64; 2] = [0.3, 0.03];
 /// A rest above these shares is more than an inexact form.
-const FORM: [f64; 2] = [0.02, 0.0025];
+const FORM: [f64; 2] = [0.01, 0.0025];
 /// The same where the base plainly misses: a real device has no exact form.
 const PLAIN_FORM: f64 = 0.075;
 

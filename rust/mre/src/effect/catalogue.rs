@@ -21,7 +21,7 @@ use super::inertia::Inertia;
 use super::mains::Mains;
 use super::maxwell::Maxwell;
 use super::mullins::{Mullins, Softening};
-use super::on_spring::OnSpring;
+use super::on_part::OnPart;
 use super::payne::{Amplitude, Payne};
 use super::pinched::Pinched;
 use super::pinching::Pinching;
@@ -99,16 +99,10 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &Mullins { by: Softening::Power, whole: true },
     &Mullins { by: Softening::Distance, whole: false },
     &Mullins { by: Softening::Distance, whole: true },
-    &OnSpring {
-        law: &Mullins { by: Softening::PseudoElastic, whole: false },
-        name: "Ogden-Roxburgh, spring",
-    },
-    &OnSpring { law: &Mullins { by: Softening::Largest, whole: false }, name: "largest strain, spring" },
-    &OnSpring {
-        law: &Mullins { by: Softening::Power, whole: false },
-        name: "power of the largest strain, spring",
-    },
-    &OnSpring { law: &Mullins { by: Softening::Distance, whole: false }, name: "reloading, spring" },
+    &OnPart::springs(&Mullins { by: Softening::PseudoElastic, whole: false }, "Ogden-Roxburgh, spring"),
+    &OnPart::springs(&Mullins { by: Softening::Largest, whole: false }, "largest strain, spring"),
+    &OnPart::springs(&Mullins { by: Softening::Power, whole: false }, "power of the largest strain, spring"),
+    &OnPart::springs(&Mullins { by: Softening::Distance, whole: false }, "reloading, spring"),
     &Thermal { by: Work::Passed, exponential: false, whole: false },
     &Thermal { by: Work::Passed, exponential: false, whole: true },
     &Thermal { by: Work::Passed, exponential: true, whole: false },
@@ -119,33 +113,39 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &Thermal { by: Work::Net, exponential: true, whole: true },
     &Thermal { by: Work::Viscous, exponential: false, whole: false },
     &Thermal { by: Work::Viscous, exponential: false, whole: true },
-    &OnSpring {
-        law: &Thermal { by: Work::Passed, exponential: false, whole: false },
-        name: "linear, spring",
-    },
-    &OnSpring {
-        law: &Thermal { by: Work::Passed, exponential: true, whole: false },
-        name: "exponential, spring",
-    },
+    &OnPart::springs(&Thermal { by: Work::Passed, exponential: false, whole: false }, "linear, spring"),
+    &OnPart::springs(&Thermal { by: Work::Passed, exponential: true, whole: false }, "exponential, spring"),
     &Adiabatic { by: Work::Passed, whole: false },
     &Adiabatic { by: Work::Passed, whole: true },
     &Adiabatic { by: Work::Net, whole: false },
     &Adiabatic { by: Work::Net, whole: true },
     &Adiabatic { by: Work::Viscous, whole: false },
     &Adiabatic { by: Work::Viscous, whole: true },
-    &OnSpring {
-        law: &Thermal { by: Work::Net, exponential: false, whole: false },
-        name: "dissipated power, spring",
-    },
-    &OnSpring {
-        law: &Thermal { by: Work::Net, exponential: true, whole: false },
-        name: "dissipated power, exponential, spring",
-    },
-    &OnSpring { law: &Adiabatic { by: Work::Passed, whole: false }, name: "no cooling, spring" },
-    &OnSpring {
-        law: &Adiabatic { by: Work::Net, whole: false },
-        name: "dissipated power, no cooling, spring",
-    },
+    &OnPart::springs(
+        &Thermal { by: Work::Net, exponential: false, whole: false },
+        "dissipated power, spring",
+    ),
+    &OnPart::springs(
+        &Thermal { by: Work::Net, exponential: true, whole: false },
+        "dissipated power, exponential, spring",
+    ),
+    &OnPart::springs(&Adiabatic { by: Work::Passed, whole: false }, "no cooling, spring"),
+    &OnPart::springs(&Adiabatic { by: Work::Net, whole: false }, "dissipated power, no cooling, spring"),
+    &OnPart::hysteretic(
+        &Thermal { by: Work::Net, exponential: false, whole: false },
+        "dissipated power, hysteretic force",
+        "k_w -> k_w (1 - s T/T_r), dT/dt = F v - T/tau",
+    ),
+    &OnPart::hysteretic(
+        &Thermal { by: Work::Net, exponential: true, whole: false },
+        "dissipated power, exponential, hysteretic force",
+        "k_w -> k_w exp(-s T/T_r), dT/dt = F v - T/tau",
+    ),
+    &OnPart::hysteretic(
+        &Adiabatic { by: Work::Net, whole: false },
+        "dissipated power, no cooling, hysteretic force",
+        "k_w -> k_w (1 - s T/T_max), T the largest integral of F v so far",
+    ),
     &Degradation { by: Progress::Path, saturates: false, whole: false },
     &Degradation { by: Progress::Path, saturates: false, whole: true },
     &Degradation { by: Progress::Path, saturates: true, whole: false },
@@ -162,30 +162,42 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &Degradation { by: Progress::Energy(Work::Viscous), saturates: false, whole: true },
     &Degradation { by: Progress::Energy(Work::Viscous), saturates: true, whole: false },
     &Degradation { by: Progress::Energy(Work::Viscous), saturates: true, whole: true },
-    &OnSpring {
-        law: &Degradation { by: Progress::Path, saturates: false, whole: false },
-        name: "path, spring",
-    },
-    &OnSpring {
-        law: &Degradation { by: Progress::Path, saturates: true, whole: false },
-        name: "path, saturating, spring",
-    },
-    &OnSpring {
-        law: &Degradation { by: Progress::Energy(Work::Passed), saturates: false, whole: false },
-        name: "energy, spring",
-    },
-    &OnSpring {
-        law: &Degradation { by: Progress::Energy(Work::Passed), saturates: true, whole: false },
-        name: "energy, saturating, spring",
-    },
-    &OnSpring {
-        law: &Degradation { by: Progress::Energy(Work::Net), saturates: false, whole: false },
-        name: "dissipated energy, spring",
-    },
-    &OnSpring {
-        law: &Degradation { by: Progress::Energy(Work::Net), saturates: true, whole: false },
-        name: "dissipated energy, saturating, spring",
-    },
+    &OnPart::springs(&Degradation { by: Progress::Path, saturates: false, whole: false }, "path, spring"),
+    &OnPart::springs(
+        &Degradation { by: Progress::Path, saturates: true, whole: false },
+        "path, saturating, spring",
+    ),
+    &OnPart::springs(
+        &Degradation { by: Progress::Energy(Work::Passed), saturates: false, whole: false },
+        "energy, spring",
+    ),
+    &OnPart::springs(
+        &Degradation { by: Progress::Energy(Work::Passed), saturates: true, whole: false },
+        "energy, saturating, spring",
+    ),
+    &OnPart::springs(
+        &Degradation { by: Progress::Energy(Work::Net), saturates: false, whole: false },
+        "dissipated energy, spring",
+    ),
+    &OnPart::springs(
+        &Degradation { by: Progress::Energy(Work::Net), saturates: true, whole: false },
+        "dissipated energy, saturating, spring",
+    ),
+    &OnPart::hysteretic(
+        &Degradation { by: Progress::Path, saturates: false, whole: false },
+        "path, hysteretic force",
+        "k_w -> k_w (1 - s P/P_max), P the path travelled",
+    ),
+    &OnPart::hysteretic(
+        &Degradation { by: Progress::Energy(Work::Net), saturates: false, whole: false },
+        "dissipated energy, hysteretic force",
+        "k_w -> k_w (1 - s E/E_max), E the largest integral of F v so far",
+    ),
+    &OnPart::hysteretic(
+        &Degradation { by: Progress::Energy(Work::Net), saturates: true, whole: false },
+        "dissipated energy, saturating, hysteretic force",
+        "k_w -> k_w (1 - s (1 - exp(-E/E_c))), E the largest integral of F v so far",
+    ),
     &Payne { by: Amplitude::Forgotten, whole: false },
     &Payne { by: Amplitude::Forgotten, whole: true },
     &Payne { by: Amplitude::HalfCycle, whole: false },
@@ -196,23 +208,34 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &Payne { by: Amplitude::Recording, whole: true },
     &Payne { by: Amplitude::Structure, whole: false },
     &Payne { by: Amplitude::Structure, whole: true },
-    &OnSpring { law: &Payne { by: Amplitude::Forgotten, whole: false }, name: "Kraus, spring" },
-    &OnSpring { law: &Payne { by: Amplitude::HalfCycle, whole: false }, name: "last half cycle, spring" },
-    &OnSpring { law: &Payne { by: Amplitude::MeanSquare, whole: false }, name: "mean square, spring" },
-    &OnSpring { law: &Payne { by: Amplitude::Structure, whole: false }, name: "structure, spring" },
+    &OnPart::springs(&Payne { by: Amplitude::Forgotten, whole: false }, "Kraus, spring"),
+    &OnPart::springs(&Payne { by: Amplitude::HalfCycle, whole: false }, "last half cycle, spring"),
+    &OnPart::springs(&Payne { by: Amplitude::MeanSquare, whole: false }, "mean square, spring"),
+    &OnPart::springs(&Payne { by: Amplitude::Structure, whole: false }, "structure, spring"),
     &StiffnessJump { whole: false, lasting: false },
     &StiffnessJump { whole: true, lasting: false },
     &StiffnessJump { whole: false, lasting: true },
     &StiffnessJump { whole: true, lasting: true },
-    &OnSpring { law: &StiffnessJump { whole: false, lasting: false }, name: "spring" },
-    &OnSpring { law: &StiffnessJump { whole: false, lasting: true }, name: "spring, lasting" },
+    &OnPart::springs(&StiffnessJump { whole: false, lasting: false }, "spring"),
+    &OnPart::springs(&StiffnessJump { whole: false, lasting: true }, "spring, lasting"),
     &Pinching { shifted: false, whole: false },
     &Pinching { shifted: false, whole: true },
     &Pinching { shifted: true, whole: false },
     &Pinching { shifted: true, whole: true },
-    &OnSpring { law: &Pinching { shifted: false, whole: false }, name: "centred, spring" },
-    &OnSpring { law: &Pinching { shifted: true, whole: false }, name: "shifted, spring" },
-    &Pinched,
+    &OnPart::springs(&Pinching { shifted: false, whole: false }, "centred, spring"),
+    &OnPart::springs(&Pinching { shifted: true, whole: false }, "shifted, spring"),
+    &OnPart::hysteretic(
+        &Pinching { shifted: false, whole: false },
+        "centred, hysteretic force",
+        "k_w -> k_w (1 - s exp(-(x/w)^2))",
+    ),
+    &OnPart::hysteretic(
+        &Pinching { shifted: true, whole: false },
+        "shifted, hysteretic force",
+        "k_w -> k_w (1 - s exp(-((x - x_s sgn v)/w)^2))",
+    ),
+    &Pinched::ByForce,
+    &Pinched::ByPlace,
     &Backlash::DeadZone,
     &Backlash::FreeDeadZone,
     &Backlash::Play,
@@ -240,7 +263,7 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &Creep::Slow,
     &Creep::Ageing,
     &Creep::AgeingWhole,
-    &OnSpring { law: &Creep::Ageing, name: "ageing, spring" },
+    &OnPart::springs(&Creep::Ageing, "ageing, spring"),
     &FieldLag::One,
     &FieldLag::Twice,
     &FieldLag::Ringing,
@@ -259,8 +282,8 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &FieldDependence::ScaledSaturating(Of::Stiffness),
     &FieldDependence::ScaledSaturating(Of::Damping),
     &FieldDependence::ScaledSaturating(Of::Whole),
-    &OnSpring { law: &FieldDependence::Scaled(Of::Stiffness), name: "spring scaled" },
-    &OnSpring { law: &FieldDependence::ScaledSaturating(Of::Stiffness), name: "spring scaled, saturating" },
+    &OnPart::springs(&FieldDependence::Scaled(Of::Stiffness), "spring scaled"),
+    &OnPart::springs(&FieldDependence::ScaledSaturating(Of::Stiffness), "spring scaled, saturating"),
 ];
 
 /// The law of this name of an effect.

@@ -8,7 +8,8 @@
 //! | s | share of the stiffness lost a decade | - | 0 to 0.4 |
 //!
 //! The logarithmic kernel falls with `log10(1 + t/t_0)`: a spectrum of relaxation times that is flat above `t_0` and fades
-//! below it as `exp(-t_0/tau)`, here up to ten times the recording.
+//! below it as `exp(-t_0/tau)`, here up to a hundred times the longest recording: the same
+//! for all, so that none is stiffer.
 //! Reference: Findley, Lai and Onaran, Creep and Relaxation of Nonlinear Viscoelastic Materials, 1976.
 //! Known limit: with a mean displacement and in one recording it cannot be told from drift.
 
@@ -34,11 +35,13 @@ pub(super) enum Creep {
 
 /// The shortest relaxation time in shares of `t_0`: less than 1 % of the spectrum is left there.
 const SHORTEST: f64 = 0.2;
+/// The longest in durations of the longest recording: beyond, a branch is a spring.
+const LONGEST: f64 = 100.0;
 
 /// Relaxation from rest of one unit of stiffness a decade.
 fn fading(scene: &Scene, t_0: f64) -> Vec<f64> {
     let shortest = SHORTEST * t_0;
-    let decades = (10.0 * scene.duration() / shortest).log10().max(1.0);
+    let decades = (LONGEST * scene.sizes.duration / shortest).log10().max(1.0);
     let count = (A_DECADE * decades).ceil() as usize + 1;
     let weight = decades / (count - 1) as f64;
     let taus = orders(shortest, shortest * 10.0_f64.powf(decades), count);

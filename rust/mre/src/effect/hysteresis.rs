@@ -7,7 +7,7 @@
 //! | sigma | share of the dissipative term | - | 0.5 to 2 |
 //! | n | sharpness of the yield | - | 1 to 5 |
 //! | `k_h` | stiffness before yield | N/mm | >= 0 |
-//! | `r`, `r_max` | yield displacement, and the largest of a distribution | mm | 5 % to 150 % (300 %) of the stroke |
+//! | `r`, `r_max` | yield displacement, and the largest of a distribution | mm | 5 % to 90 % (300 %) of the stroke |
 //! | q | exponent of the distribution: yields below r have the share (`r/r_max`)^q | - | 0.2 to 4 |
 //!
 //! Reference: Ikhouane and Rodellar 2005, <https://doi.org/10.1007/s11071-005-0069-3>; Iwan, J. Appl. Mech. 33
@@ -47,7 +47,8 @@ fn parallel(scene: &Scene, largest: f64, q: f64) -> Vec<f64> {
     sum
 }
 
-fn bouc_wen(scene: &Scene, shape: &[f64]) -> Vec<f64> {
+/// Normalised hysteretic variable for a shape `[rho, sigma, n]`.
+pub(super) fn bouc_wen(scene: &Scene, shape: &[f64]) -> Vec<f64> {
     let mut w = vec![0.0; scene.len()];
     hysteretic::trace(scene.time, scene.velocity, [shape[0], shape[1], shape[2]], &mut w);
     // Samples too far apart for these parameters show nothing of it.
@@ -99,7 +100,7 @@ impl Effect for Hysteresis {
                 within("sigma", "", 0.5, 2.0),
                 Parameter { scale: Scale::Log, ..within("n", "", 1.0, 5.0) },
             ],
-            Self::Jenkins => vec![order_within("r", "mm", 0.05 * x, 1.5 * x)],
+            Self::Jenkins => vec![order_within("r", "mm", 0.05 * x, 0.9 * x)],
             Self::Iwan => vec![order_within("r_max", "mm", 0.1 * x, 3.0 * x)],
             Self::PowerIwan => {
                 vec![order_within("r_max", "mm", 0.1 * x, 3.0 * x), order_within("q", "", 0.2, 4.0)]
@@ -114,7 +115,7 @@ impl Effect for Hysteresis {
                 .into_iter()
                 .flat_map(|share| [vec![1.0 / (share * x), 0.8, 1.0], vec![1.0 / (share * x), 0.6, 2.5]])
                 .collect(),
-            Self::Jenkins => orders(0.05, 1.0, 7).into_iter().map(|share| vec![share * x]).collect(),
+            Self::Jenkins => orders(0.05, 0.85, 7).into_iter().map(|share| vec![share * x]).collect(),
             Self::Iwan => orders(0.12, 2.5, 6).into_iter().map(|share| vec![share * x]).collect(),
             Self::PowerIwan => orders(0.2, 2.0, 4)
                 .into_iter()

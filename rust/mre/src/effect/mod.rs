@@ -28,7 +28,7 @@ mod initial_state;
 mod mains;
 mod maxwell;
 mod mullins;
-mod on_spring;
+mod on_part;
 mod operators;
 mod payne;
 mod pinched;
@@ -59,6 +59,7 @@ pub use scene::{Acceleration, Scene, Sizes};
 use std::ops::RangeInclusive;
 
 use crate::parameter::{Parameter, Scale};
+use crate::physics::Part;
 
 /// What is known about a law.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -82,10 +83,33 @@ pub struct About {
 pub struct Factors {
     /// On the terms that store energy.
     pub stiffness: Vec<f64>,
-    /// True where hysteretic terms are scaled like them.
-    pub hysteretic: bool,
+    /// Which of them.
+    pub on: Stored,
     /// On the viscous terms; `None`: unchanged.
     pub damping: Option<Vec<f64>>,
+}
+
+/// Terms that store energy.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stored {
+    /// Springs and hysteretic terms.
+    All,
+    /// Springs alone.
+    Springs,
+    /// Hysteretic terms alone.
+    Hysteretic,
+}
+
+impl Factors {
+    /// Those on a part of the base model, if they change it.
+    pub(crate) fn on(&self, part: Part) -> Option<&[f64]> {
+        match part {
+            Part::Stiffness if self.on != Stored::Hysteretic => Some(&self.stiffness),
+            Part::Hysteretic if self.on != Stored::Springs => Some(&self.stiffness),
+            Part::Damping => self.damping.as_deref(),
+            Part::Stiffness | Part::Hysteretic | Part::Offset => None,
+        }
+    }
 }
 
 /// No factor falls below this.
@@ -98,7 +122,7 @@ impl Factors {
             *k = k.max(LEAST_KEPT);
         }
         let damping = whole.then(|| kept.clone());
-        Self { stiffness: kept, hysteretic: true, damping }
+        Self { stiffness: kept, on: Stored::All, damping }
     }
 
     /// A share that is lost, times a state that goes from zero to about one.
@@ -109,7 +133,7 @@ impl Factors {
     /// The same on the viscous terms alone.
     fn of_damping(self) -> Self {
         let stiffness = vec![1.0; self.stiffness.len()];
-        Self { damping: Some(self.stiffness), stiffness, hysteretic: false }
+        Self { damping: Some(self.stiffness), stiffness, on: Stored::Springs }
     }
 }
 
@@ -178,9 +202,9 @@ pub trait Effect: Send + Sync {
         true
     }
 
-    /// True where the law scales the springs of a hysteretic base model and not its hysteretic force: beside
+    /// True where the law scales only the springs of a hysteretic base model, or only its hysteretic force: beside
     /// another base it is the plain law.
-    fn on_springs_alone(&self) -> bool {
+    fn on_a_part(&self) -> bool {
         false
     }
 

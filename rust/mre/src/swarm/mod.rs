@@ -5,6 +5,7 @@
 //! and the result does not depend on the order of the fish. Every fish draws from its own stream of
 //! random numbers: same seed, same bits, for any number of threads.
 
+mod awake;
 mod batch;
 mod bulletin;
 mod fish;
@@ -18,6 +19,7 @@ mod settings;
 mod swarming;
 mod view;
 
+pub use awake::awake;
 pub use bulletin::{Bulletin, History};
 pub use fish::FishSwarm;
 pub use pso::ParticleSwarm;
