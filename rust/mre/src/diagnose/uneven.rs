@@ -1,6 +1,6 @@
 //! Noise does not know the motion, nor when it is: what is left and is larger at some displacements, velocities,
-//! accelerations or moments of a recording than at others is not noise alone. An autoregression takes much of a fast
-//! mismatch for noise, but not this.
+//! accelerations or moments of a recording than at others is not noise alone. An autoregression takes much of a mismatch
+//! for noise, but not this: a fast one shows sample by sample, a slow one in means over some samples.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -14,8 +14,12 @@ use crate::kernel::filter::dot;
 const ACROSS: usize = 8;
 /// Stretches of the time of each recording.
 const LONG: usize = 6;
-/// Columns: the ends of the stretches, and the squares of velocity and acceleration.
-const COLUMNS: usize = ACROSS + LONG + 4;
+/// Columns: the ends of the stretches, the squares of velocity and acceleration, and the sizes of the motion around.
+const COLUMNS: usize = ACROSS + LONG + 6;
+/// The sizes of the motion around are over so many seconds on either side.
+const AROUND: f64 = 1.0;
+/// Samples that are taken together: a mean of some keeps what is slow, and is as white.
+const TOGETHER: [usize; 3] = [1, 4, 16];
 /// Squares above this many variances count as this many: heavy tails are noise too.
 const LARGEST: f64 = 9.0;
 /// Samples over which sizes may be correlated.
@@ -27,7 +31,7 @@ const COARSE: f64 = 0.3;
 /// Ridge on ones on the diagonal.
 const RIDGE: f64 = 1e-6;
 /// Samples that tell something, at least.
-const FEWEST: usize = 200;
+const FEWEST: usize = 100;
 /// Share of the noise that is not noise, below which it may be chance.
 const LEAST: f64 = 0.15;
 /// The noise's own size is found where what is left is smaller than at all but this share of the samples.
@@ -64,8 +68,17 @@ impl Null<'_> {
         if self.noise().hidden() {
             return Uneven::NONE;
         }
+        let tried = TOGETHER.map(|together| self.uneven_in_means(together));
+        let [one, others @ ..] = tried;
+        let best =
+            others.into_iter().fold(one, |best, next| if next.p_value < best.p_value { next } else { best });
+        Uneven { p_value: (best.p_value * TOGETHER.len() as f64).min(1.0), ..best }
+    }
+
+    /// The same of means over so many samples.
+    fn uneven_in_means(&self, together: usize) -> Uneven {
         let recordings = self.assembly().campaign().recordings().len();
-        let all: Vec<Sizes> = (0..recordings).filter_map(|r| self.sizes_over_motion(r)).collect();
+        let all: Vec<Sizes> = (0..recordings).filter_map(|r| self.sizes_over_motion(r, together)).collect();
         if all.is_empty() {
             return Uneven::NONE;
         }
@@ -80,7 +93,7 @@ impl Null<'_> {
         Uneven { p_value, swallowed: swallowed(&all, &right) }
     }
 
-    fn sizes_over_motion(&self, r: usize) -> Option<Sizes> {
+    fn sizes_over_motion(&self, r: usize, together: usize) -> Option<Sizes> {
         let (noise, campaign) = (self.noise(), self.assembly().campaign());
         if campaign.doubts()[r].cornered {
             return None;
@@ -98,7 +111,10 @@ impl Null<'_> {
             let place = |i: usize| i.clamp(start, start + left.len()) - start;
             counts[place(gap.start)..place(gap.end + memory)].fill(false);
         }
-        let squares: Vec<f64> = left.iter().map(|e| (e * e).min(LARGEST)).collect();
+        let whole = |some: &[bool]| some.iter().all(|counts| *counts);
+        let counts: Vec<bool> = counts.chunks_exact(together).map(whole).collect();
+        let size = |some: &[f64]| (some.iter().sum::<f64>().powi(2) / together as f64).min(LARGEST);
+        let squares: Vec<f64> = left.chunks_exact(together).map(size).collect();
         let mean = squares.iter().sum::<f64>() / squares.len() as f64;
         let squares = centred(squares, &counts)?;
         let deviation = (dot(&squares, &squares) / squares.len() as f64).sqrt();
@@ -106,14 +122,22 @@ impl Null<'_> {
             return None;
         }
         let columns = self.functions_of_the_motion(r, start..start + left.len());
+        let means = |column: Vec<f64>| {
+            let mean = |some: &[f64]| some.iter().sum::<f64>() / together as f64;
+            column.chunks_exact(together).map(mean).collect()
+        };
         Some(Sizes {
             squares: squares.iter().map(|s| s / deviation).collect(),
             spread: deviation / mean,
-            columns: columns.into_iter().map(|column| centred(column, &counts)).collect::<Option<_>>()?,
+            columns: columns
+                .into_iter()
+                .map(|column| centred(means(column), &counts))
+                .collect::<Option<_>>()?,
         })
     }
 
-    /// Hats over the displacement and over time, and the squares of velocity and acceleration, over their largest.
+    /// Hats over the displacement and over time, the squares of velocity and acceleration, over their largest, and the
+    /// mean squares of displacement and velocity around.
     fn functions_of_the_motion(&self, r: usize, rows: std::ops::Range<usize>) -> Vec<Vec<f64>> {
         let scene = self.scene(r);
         let sizes = scene.sizes;
@@ -133,8 +157,24 @@ impl Null<'_> {
         let mut columns: Vec<Vec<f64>> = across.chain((0..=LONG).map(|k| hat(&moment, k))).collect();
         columns.push(square(v.to_vec()));
         columns.push(square((0..v.len()).map(slope).collect()));
+        let reach = (AROUND / scene.step()) as usize;
+        columns.extend([x, v].map(|series| around(&square(series.to_vec()), reach)));
         columns
     }
+}
+
+/// Means over so many values on either side.
+fn around(values: &[f64], reach: usize) -> Vec<f64> {
+    let mut sums = vec![0.0];
+    for value in values {
+        sums.push(sums[sums.len() - 1] + value);
+    }
+    (0..values.len())
+        .map(|i| {
+            let (from, to) = (i.saturating_sub(reach), (i + reach + 1).min(values.len()));
+            (sums[to] - sums[from]) / (to - from) as f64
+        })
+        .collect()
 }
 
 impl Sizes {
