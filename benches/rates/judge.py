@@ -20,6 +20,8 @@ class Outcome:
     verdict: str
     p_base: float
     """Chance of the base model's mismatch under the null, as the tool has it."""
+    p_rest: float
+    """Chance of what the final model leaves."""
     reached: bool
     """False where the base model absorbs the effect at any size."""
     error: float
@@ -63,6 +65,7 @@ def run(trial: Trial) -> Outcome:
         tuple(rival for effect in found.effects for rival in effect.indistinguishable_from),
         found.verdict,
         float(found.p_values["base"]),
+        float(found.p_values["rest"]),
         made.reached,
         float(np.sqrt(np.mean(error**2))) / made.noise_rms,
         seconds,

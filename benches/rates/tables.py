@@ -85,13 +85,14 @@ def admission(found: Sequence[Outcome]) -> str:
             rate(own, lambda o: o.verdict == "unexplained"),
             rate(own, lambda o: o.verdict == "partly_explained"),
             rate(own, lambda o: o.verdict == "missing_physics"),
+            sum(o.verdict == "missing_physics" and o.p_rest > o.trial.false_alarm for o in own),
             rate(own, lambda o: o.verdict == "adequate"),
             ", ".join(sorted({n for o in own for n in o.named})),
         )
         for what, own in groups.items()
     ]
     head = ("concealed", "cases", "`unexplained`", "`partly_explained`", "a wrong name as the whole answer")
-    return table((*head, "nothing found", "names given"), rows)
+    return table((*head, "of these down to the noise", "nothing found", "names given"), rows)
 
 
 def nulls(found: Sequence[Outcome]) -> str:

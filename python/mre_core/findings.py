@@ -194,7 +194,7 @@ def next_test_of(raw: Raw) -> dict[str, Any] | None:
         "excitation": best["excitation"],
         "frequency_hz": best["frequency_hz"],
         "amplitude_mm": best["amplitude_mm"],
-        "duration_s": limits["duration_s"],
+        "duration_s": best["duration_s"],
         "current_A": current[0] if current else None,
         "separates": separates,
         "chances": best["chances"],

@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     multiple=True,
     metavar="NAME=VALUE",
     help="Limit of the next test: stroke (mm), speed (mm/s), highest (frequency, Hz), duration (s), current "
-    "(LOWEST:HIGHEST, A); may be given several times. By default what was tested, 10 Hz, and 10 to 40 s.",
+    "(LOWEST:HIGHEST, A); may be given several times. By default what was tested, 10 Hz, and 10 to 160 s.",
 )
 @click.option("--seed", type=WHOLE, help="Same seed, same result.")
 @trim_options

@@ -36,6 +36,11 @@ const PASSES: usize = 4;
 const MOST_ODDS: f64 = 50.0;
 /// A plainer excitation is preferred where another resolves less than this much more.
 const WORTH: f64 = 0.1;
+/// Chance of telling an effect in doubt that is enough.
+const ENOUGH: f64 = 0.95;
+/// How many times as long the test may be where that tells more.
+const LONGER: [f64; 2] = [2.0, 4.0];
+
 /// What an excitation is expected to tell.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Prospect {
@@ -45,6 +50,8 @@ pub struct Prospect {
     pub frequency: f64,
     /// Largest displacement, mm.
     pub amplitude: f64,
+    /// s.
+    pub duration: f64,
     /// Chance that each effect in doubt is told apart or detected.
     pub chances: Vec<(&'static str, f64)>,
 }
@@ -52,7 +59,7 @@ pub struct Prospect {
 /// The proposed excitation among all that were tried.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NextTest {
-    /// Limits of the excitations.
+    /// Limits of the proposed one.
     pub limits: Limits,
     /// All of them, the proposed one first.
     pub prospects: Vec<Prospect>,
@@ -79,19 +86,17 @@ pub(super) fn propose(
     if doubt.rivals.is_empty() && doubt.hidden.is_empty() {
         return None;
     }
-    let limits = Limits::of(&settings.limits, named.assembly.campaign());
-    let mut prospects: Vec<Prospect> = KINDS
-        .iter()
-        .filter_map(|kind| {
-            let signal = monitor.whole(kind.signal(&limits)?)?;
-            let chances = chances(named, base, doubt, rows, settings, &signal, monitor)?;
-            let (frequency, amplitude) = (signal.frequency, signal.amplitude);
-            Some(Prospect { kind: *kind, frequency, amplitude, chances })
-        })
-        .collect();
+    let mut limits = Limits::of(&settings.limits, named.assembly.campaign());
+    let prospect = |kind: Kind, limits: &Limits| {
+        let signal = monitor.whole(kind.signal(limits)?)?;
+        let chances = chances(named, base, doubt, rows, settings, &signal, monitor)?;
+        let (frequency, amplitude, duration) = (signal.frequency, signal.amplitude, limits.duration);
+        Some(Prospect { kind, frequency, amplitude, duration, chances })
+    };
+    let mut prospects: Vec<Prospect> = KINDS.iter().filter_map(|kind| prospect(*kind, &limits)).collect();
     // What is in doubt comes first, then what is hidden; of those that tell about as much, the plainest.
+    let is_rival = |id: &str| doubt.rivals.iter().any(|(known, _)| *known == id);
     let worth = |p: &Prospect, rival: bool| -> f64 {
-        let is_rival = |id: &str| doubt.rivals.iter().any(|(known, _)| *known == id);
         p.chances.iter().filter(|(id, _)| is_rival(id) == rival).map(|(_, chance)| chance).sum()
     };
     let mut best: Vec<usize> = (0..prospects.len()).collect();
@@ -99,7 +104,20 @@ pub(super) fn propose(
         let most = best.iter().map(|i| worth(&prospects[*i], rival)).fold(0.0, f64::max);
         best.retain(|i| worth(&prospects[*i], rival) >= most - WORTH);
     }
-    let chosen = prospects.remove(*best.first()?);
+    let mut chosen = prospects.remove(*best.first()?);
+    if settings.limits.duration.is_none() {
+        let usual = limits.duration;
+        for times in LONGER {
+            if chosen.chances.iter().all(|(id, chance)| !is_rival(id) || *chance >= ENOUGH) {
+                break;
+            }
+            let longer = Limits { duration: times * usual, ..limits.clone() };
+            let Some(other) = prospect(chosen.kind, &longer) else { break };
+            if worth(&other, true) > worth(&chosen, true) + WORTH {
+                (chosen, limits) = (other, longer);
+            }
+        }
+    }
     prospects.sort_by(|a, b| {
         let by = |rival| worth(b, rival).total_cmp(&worth(a, rival));
         by(true).then_with(|| by(false))
