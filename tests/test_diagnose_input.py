@@ -129,3 +129,16 @@ def test_one_cycle_is_enough_wherever_it_starts() -> None:
         x, v = 3 * np.cos(turn), -0.6 * np.pi * np.sin(turn)
         found = mre_core.diagnose(Recording(T, x, 3 * x + v + 0.1 * NOISE), "kelvin_voigt", seed=1)
         assert found.verdict == "adequate"
+
+
+def test_a_late_force_of_a_device_with_little_damping_is_named_and_not_refused() -> None:
+    def late(frequency: float) -> Recording:
+        """A spring that hardly dampens, its force 8 ms late: it seems to give out energy."""
+        x = 3 * np.clip(T, 0, 1) * np.sin(2 * np.pi * frequency * T)
+        at = 2 * np.pi * frequency * (T - 0.008)
+        force = 3 * 4.0 * np.clip(T - 0.008, 0, 1) * np.sin(at)
+        noise = 0.02 * np.random.default_rng(round(10 * frequency)).normal(size=T.size)
+        return Recording(T, x, force + noise, name=f"{frequency} Hz")
+
+    found = mre_core.diagnose([late(f) for f in (0.5, 1.7, 4.0)], "kelvin_voigt", seed=1)
+    assert [effect.id for effect in found.effects] == ["time_delay"], found
