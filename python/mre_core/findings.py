@@ -59,10 +59,12 @@ def _shows(effect: Raw, where: Sequence[Raw], names: Sequence[str]) -> str | Non
 
 
 def missing_effects(raw: Raw, names: Sequence[str], force: float) -> tuple[MissingEffect, ...]:
-    """Effects found, the most useful first. An inexact form is told of that one."""
+    """Effects found, the most useful first. An inexact form is told of the first that follows the motion."""
     found = []
+    still = [effect["of_the_measurement"] for effect in raw["effects"]]
+    doubted = still.index(False) if False in still else 0
     for rank, effect in enumerate(raw["effects"]):
-        inexact = rank == 0 and raw["approximate"]
+        inexact = rank == doubted and raw["approximate"]
         shows = _shows(effect, raw["where"], names) if rank == 0 else None
         found.append(
             MissingEffect(

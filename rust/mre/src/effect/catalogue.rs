@@ -75,6 +75,7 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &Inertia,
     &TimeDelay::Continued,
     &TimeDelay::Held,
+    &TimeDelay::Motion,
     &OddElastic::Cubic,
     &OddElastic::Quintic,
     &OddElastic::Sinh,

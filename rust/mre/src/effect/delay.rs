@@ -3,20 +3,25 @@
 //! | symbol | meaning | unit | range |
 //! |---|---|---|---|
 //! | d | delay of the force against the motion; negative: the motion lags | s | up to 50 ms |
+//!
+//! Between samples the force is a spline, or the motion is, of which the force then follows: where the device turns
+//! sharply, a spline through its force swings.
 
-use super::{About, Effect, Scene, Sizes, within};
+use super::{About, Effect, Motion, Scene, Sizes, within};
 use crate::parameter::Parameter;
 
 /// From here on the elimination of a spline has the same factor, to the last bit.
 const SETTLED: usize = 32;
 
-/// What is measured of a force that is from before a recording began, or from after it ended.
+/// What is shifted, and what is measured of a force that is from before a recording began, or from after it ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum TimeDelay {
     /// The force goes on as it begins: the recording is a part of a longer one.
     Continued,
     /// The force stays as it begins: the device is held there.
     Held,
+    /// The device sees the motion of another time.
+    Motion,
 }
 
 /// The series at `time - delay`, by a natural cubic spline; along its end slopes beyond its ends.
@@ -72,9 +77,14 @@ impl Effect for TimeDelay {
             law: match self {
                 Self::Continued => "pure delay",
                 Self::Held => "pure delay, held before",
+                Self::Motion => "pure delay of the motion",
             },
             plain: "one channel lags the other by a fixed time",
-            equation: "F_measured(t) = F(t - d)",
+            equation: if *self == Self::Motion {
+                "the device sees x(t - d)"
+            } else {
+                "F_measured(t) = F(t - d)"
+            },
             reference: "general",
             limit: "at one steady frequency it is part of k0 and c0",
         }
@@ -88,7 +98,16 @@ impl Effect for TimeDelay {
         vec![vec![-0.02], vec![-0.002], vec![0.002], vec![0.02]]
     }
 
+    fn motion(&self, scene: &Scene, shape: &[f64]) -> Option<Motion> {
+        let shifted = |series: &[f64]| delayed(scene.step(), series, shape[0]);
+        (*self == Self::Motion)
+            .then(|| Motion { displacement: shifted(scene.displacement), velocity: shifted(scene.velocity) })
+    }
+
     fn through(&self, scene: &Scene, shape: &[f64], force: &[f64]) -> Option<Vec<f64>> {
+        if *self == Self::Motion {
+            return None;
+        }
         let mut found = delayed(scene.step(), force, shape[0]);
         if *self == Self::Held {
             let (last, shift) = (force.len() - 1, shape[0] / scene.step());
