@@ -96,12 +96,14 @@ fn alone<'a>(
     let drifts = named.assembly.effects().iter().any(|e| e.slow().is_some() && e.of_the_measurement());
     let surpassed = effects > 0 && !drifts && of_all.improvement > improvement + CLEAR;
     let wandering = last.as_ref().map_or(Mismatch::NONE, Null::wandering);
+    let odd = last.as_ref().map_or(Mismatch::NONE, Null::odd_recording);
     let uneven = last.as_ref().map_or(Uneven::NONE, Null::uneven);
     let tests = Tests {
         first,
         rest,
         smooth: of_rest.p_value,
         wandering,
+        odd,
         uneven,
         explained,
         change,

@@ -106,7 +106,7 @@ pub(super) fn overlap(a: &Place, b: &Place) -> bool {
 }
 
 /// Strength of single columns on one recording.
-fn strengths(null: &Null, r: usize, columns: Vec<Vec<f64>>) -> Vec<f64> {
+pub(super) fn strengths(null: &Null, r: usize, columns: Vec<Vec<f64>>) -> Vec<f64> {
     let count = columns.len();
     let mut columns = Some(columns);
     let (gram, right, squares) = null.project(count, |s| {

@@ -5,6 +5,7 @@ use nalgebra::DVector;
 
 use super::distribution::{CAUTION, chi_square_tail};
 use super::features::{On, features};
+use super::locate::strengths;
 use super::null::Null;
 use crate::effect::Scene;
 
@@ -159,6 +160,23 @@ impl Null<'_> {
         let all: Vec<usize> = (0..each * recordings).collect();
         let Mismatch { gain, freedom, .. } = Projected::of(&gram, &right, &squares, &all).mismatch();
         Mismatch::new(gain / MORE_CAUTION, freedom)
+    }
+
+    /// A recording whose force or damping alone does not agree with the others: the features together dilute what is
+    /// in one.
+    pub(super) fn odd_recording(&self) -> Mismatch {
+        let recordings = self.assembly().campaign().recordings().len();
+        if !(2..=MOST_RECORDINGS).contains(&recordings) {
+            return Mismatch::NONE;
+        }
+        let largest = |r: usize| {
+            let scene = self.scene(r);
+            let own = strengths(self, r, vec![scene.force.to_vec(), scene.velocity.to_vec()]);
+            own.into_iter().fold(0.0, |most: f64, s| most.max(s * s))
+        };
+        let gain = (0..recordings).map(largest).fold(0.0, f64::max);
+        let one = Mismatch::new(gain / MORE_CAUTION, 1);
+        Mismatch { p_value: (2.0 * recordings as f64 * one.p_value).min(1.0), ..one }
     }
 
     /// Project the features.
