@@ -210,7 +210,8 @@ fn in_state(null: &Null) -> Vec<Finding> {
     let sizes = null.assembly().campaign().sizes();
     let (far, fast) = (sizes.displacement, sizes.velocity);
     let step = 2.0 * far / STRETCHES as f64;
-    let centre = |k: usize| -far + step * k as f64;
+    // The middle is zero to the last bit.
+    let centre = |k: usize| far * (2.0 * k as f64 / STRETCHES as f64 - 1.0);
     // Every hat in each band of velocities.
     let bands = [[-fast, fast], [0.0, fast], [-fast, 0.0], [-fast, -0.5 * fast], [0.5 * fast, fast]];
     let count = bands.len() * (STRETCHES + 1);
@@ -237,7 +238,7 @@ fn in_state(null: &Null) -> Vec<Finding> {
         .filter(|i| gram[(*i, *i)] > SMALLEST_SHARE * squares[*i] && squares[*i] > 0.0)
         .map(|i| {
             let (k, v) = (i / bands.len(), bands[i % bands.len()]);
-            let x = [(centre(k) - step).max(-far), (centre(k) + step).min(far)];
+            let x = [centre(k.saturating_sub(1)), centre((k + 1).min(STRETCHES))];
             Finding { place: Place::State { x, v }, strength: right[i].abs() / gram[(i, i)].sqrt() }
         })
         .collect()

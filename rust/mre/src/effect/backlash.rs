@@ -22,7 +22,7 @@ pub(super) enum Backlash {
     Play,
 }
 
-/// Gaps of a play that are tried: the smallest over the largest displacement, by which factor they rise, and how many
+/// Gaps that are tried where the velocity jumps with them: the smallest over the largest displacement, by which factor they rise, and how many
 /// they are.
 const SMALLEST: f64 = 3e-4;
 const RATIO: f64 = 1.6;
@@ -81,9 +81,9 @@ impl Effect for Backlash {
 
     fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
         let shares: Vec<f64> = match self {
-            Self::DeadZone | Self::FreeDeadZone => vec![0.003, 0.01, 0.03, 0.08, 0.16, 0.3],
-            // One of twice the right size explains nothing.
-            Self::Play => (0..COUNT).map(|k| SMALLEST * RATIO.powi(k)).collect(),
+            Self::DeadZone => vec![0.003, 0.01, 0.03, 0.08, 0.16, 0.3],
+            // One of twice the right size explains nothing, and the fit jumps from sample to sample.
+            Self::FreeDeadZone | Self::Play => (0..COUNT).map(|k| SMALLEST * RATIO.powi(k)).collect(),
         };
         shares.iter().map(|share| vec![share * sizes.displacement]).collect()
     }

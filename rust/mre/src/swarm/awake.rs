@@ -50,6 +50,7 @@ impl Drop for Over<'_> {
 }
 
 #[cfg(test)]
+#[allow(clippy::expect_used)]
 mod tests {
     use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -64,7 +65,7 @@ mod tests {
         if to - from < 4 {
             return (from..to).sum();
         }
-        let middle = (from + to) / 2;
+        let middle = u64::midpoint(from, to);
         let (left, right) = rayon::join(|| sum(from, middle), || sum(middle, to));
         left + right
     }

@@ -54,6 +54,22 @@ fn a_delay_of_samples_is_a_shift() {
 }
 
 #[test]
+fn a_delay_of_the_motion_shows_the_device_that_of_another_time() {
+    let stage = Stage::sine(3.0, 2.0, 4.0);
+    let law = law("time_delay", "pure delay of the motion");
+    let scene = stage.scene();
+    for delay in [0.0037, -0.0112] {
+        let seen = law.motion(&scene, &[delay]).expect("it moves");
+        assert!(law.through(&scene, &[delay], scene.force).is_none());
+        for i in [500, 1234, 3000] {
+            let turn = std::f64::consts::TAU * 2.0 * (scene.time[i] - delay);
+            close(seen.displacement[i], 3.0 * turn.sin(), 1e-6);
+            close(seen.velocity[i], 3.0 * std::f64::consts::TAU * 2.0 * turn.cos(), 1e-5);
+        }
+    }
+}
+
+#[test]
 fn a_force_that_is_held_before_is_delayed_from_its_first_value() {
     let stage = Stage::sine(2.0, 1.0, 2.0);
     let scene = stage.scene();

@@ -173,6 +173,32 @@ fn a_fading_spectrum_relaxes_with_the_logarithm_of_time() {
 }
 
 #[test]
+fn creep_begins_alike_in_long_and_short_recordings() {
+    let motion = |t: f64| if t < 0.005 { (0.0, 200.0) } else { (1.0, 0.0) };
+    let (long, short) =
+        (Stage::new(grid(0.01, 100.0), motion, None), Stage::new(grid(0.01, 10.0), motion, None));
+    // Of one campaign: the sizes are those of the longest.
+    let of_both = crate::effect::Scene { sizes: &long.sizes, ..short.scene() };
+    let [whole, part] = [long.scene(), of_both].map(|scene| column("creep", "logarithmic", &scene, &[0.1]));
+    for i in [1, 10, 100, 1000] {
+        close(part[i], whole[i], 1e-9);
+    }
+    let lost = |i: usize| (1.0 + 0.01 * i as f64 / 0.1).log10();
+    close(whole[5] - whole[9000], lost(9000) - lost(5), 0.01);
+}
+
+#[test]
+fn an_element_narrow_in_the_middle_is_a_hysteretic_one_that_loses_force_there() {
+    let stage = Stage::sine(3.0, 0.5, 8.0);
+    let scene = stage.scene();
+    let narrow = column("pinching", "element, narrow in the middle", &scene, &[2.0, 0.6, 0.5]);
+    let plain = column("hysteresis", "Bouc-Wen", &scene, &[2.0, 0.5, 1.5]);
+    for (i, x) in scene.displacement.iter().enumerate() {
+        close(narrow[i], plain[i] * (1.0 - 0.6 * (-(x / 0.5).powi(2)).exp()), 1e-12);
+    }
+}
+
+#[test]
 fn a_law_with_the_current_is_the_plain_one_shared_between_two_levels() {
     let current = |t: f64| 0.5 + 0.25 * t;
     let time = grid(0.01, 4.0);

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use super::{Stage, close, grid, law};
 use crate::effect::Scene;
+use crate::physics::Part;
 
 #[test]
 fn pseudo_elastic_softening_is_nothing_on_the_virgin_curve() {
@@ -39,6 +40,26 @@ fn degradation_reaches_its_share_at_the_longest_path() {
         close(factor[5000], 0.7, 2e-3);
         close(factor[2500], 0.85, 2e-3);
     }
+}
+
+#[test]
+fn a_law_on_a_part_leaves_the_others() {
+    let stage = Stage::sine(2.0, 1.0, 5.0);
+    let on = |name: &str, part: Part| {
+        law("cyclic_degradation", name).factors(&stage.scene(), &[0.3]).unwrap().on(part).map(|f| f[5000])
+    };
+    for (name, springs, hysteretic) in [
+        ("path, stiffness", true, true),
+        ("path, spring", true, false),
+        ("path, hysteretic force", false, true),
+    ] {
+        assert_eq!(on(name, Part::Stiffness).is_some(), springs, "{name}");
+        assert_eq!(on(name, Part::Hysteretic).is_some(), hysteretic, "{name}");
+        assert_eq!(on(name, Part::Damping), None, "{name}");
+        assert_eq!(on(name, Part::Offset), None, "{name}");
+    }
+    close(on("path, hysteretic force", Part::Hysteretic).unwrap(), 0.7, 2e-3);
+    assert!(law("cyclic_degradation", "path, hysteretic force").about().equation.starts_with("k_w"));
 }
 
 #[test]
