@@ -14,7 +14,7 @@ _GIVES = -0.1
 """Correlation of force and rate of displacement below which a device gives out energy; of several recordings,
 one at least of those that all do."""
 _ROUGHER = 3.0
-"""A force that is so many times as rough as the displacement is in its own column: sensors of force are noisier."""
+"""A force that is so many times as rough as the displacement is in its own column."""
 _SMOOTH = 4
 """Order of the differences that show how rough a series is."""
 _JUMPS = 1.5
@@ -107,7 +107,7 @@ def _energy(x: NDArray[np.float64], force: NDArray[np.float64]) -> float:
 
 
 def _force_is_rougher(recordings: Sequence[Recording]) -> bool:
-    """In every recording: a lag of a force in its own column, and not swapped columns, may then give out energy."""
+    """In every recording, so that a lag and not swapped columns gives out energy: force sensors are noisier."""
     return all(_rough(force) > _ROUGHER * _rough(x) for x, force in map(_scored, recordings))
 
 
