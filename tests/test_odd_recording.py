@@ -9,7 +9,7 @@ FREQUENCIES = (0.6, 1.1, 1.9, 2.8, 0.9)
 
 
 def campaign(more: float, seed: int) -> Diagnosis:
-    """Steps of amplitude on a spring and a dashpot that grows by `more` half way through the second recording."""
+    """Steps of amplitude on a spring and a dashpot, which grows half way through the second recording."""
     rng = np.random.default_rng([seed, 57])
     t = np.arange(round(RATE * SECONDS)) / RATE
     recordings = []
