@@ -107,7 +107,7 @@ def _energy(x: NDArray[np.float64], force: NDArray[np.float64]) -> float:
 
 
 def _force_is_rougher(recordings: Sequence[Recording]) -> bool:
-    """In every recording: force sensors are noisier, so that a lag gives out energy and not swapped columns."""
+    """In every recording: force sensors are noisier, so that a lag and not swapped columns is at work."""
     return all(_rough(force) > _ROUGHER * _rough(x) for x, force in map(_scored, recordings))
 
 
