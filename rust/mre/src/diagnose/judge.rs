@@ -107,6 +107,7 @@ fn alone<'a>(
         uneven,
         explained,
         change,
+        noise: named.noise_rms(data),
         surpassed,
         nothing_left,
     };

@@ -9,7 +9,9 @@ use super::uneven::Uneven;
 /// there, bent towards one that is in no catalogue, leave more. Several bend further, and so have to fit better.
 const TRUSTED: [f64; 2] = [0.3, 0.03];
 /// A rest above these shares is more than an inexact form.
-const FORM: [f64; 2] = [0.01, 0.0025];
+const FORM: [f64; 2] = [0.02, 0.0025];
+/// So is a smaller one of a single effect that is plainly seen: above this share, and more than this share of the noise.
+const SEEN: [f64; 2] = [0.005, 0.1];
 /// The same where the base plainly misses: a real device has no exact form.
 const PLAIN_FORM: f64 = 0.075;
 
@@ -60,6 +62,8 @@ pub struct Evidence {
     pub share: f64,
     /// Rms in N of the force that the best further candidate would add.
     pub lack_of_fit: f64,
+    /// Rms in N of the noise.
+    pub noise: f64,
     /// True where the base plainly misses.
     pub plain: bool,
     /// True where what is left hides the noise.
@@ -86,6 +90,8 @@ pub(super) struct Tests {
     pub(super) explained: f64,
     /// Rms in N of the force that the best further candidate would add.
     pub(super) change: f64,
+    /// Rms in N of the noise.
+    pub(super) noise: f64,
     /// True where a smooth force that no effect has explains more.
     pub(super) surpassed: bool,
     /// True where no more is left than the rounding of the force.
@@ -95,7 +101,7 @@ pub(super) struct Tests {
 impl Evidence {
     pub(super) fn new(tests: &Tests, named: &Named, plain: bool, false_alarm: f64) -> Self {
         let Tests { first, rest, smooth, wandering, odd, uneven, .. } = *tests;
-        let Tests { explained, change, surpassed, nothing_left, .. } = *tests;
+        let Tests { explained, change, noise, surpassed, nothing_left, .. } = *tests;
         let catalogue = by_effect(&named.scores);
         let holm = catalogue.iter().map(|(_, p)| *p).fold(1.0, f64::min) * catalogue.len() as f64;
         let of_places = wandering.p_value.min(odd.p_value);
@@ -112,6 +118,7 @@ impl Evidence {
             false_alarm,
             share,
             lack_of_fit: if significant { change } else { 0.0 },
+            noise,
             plain,
             hidden: named.noise.hidden(),
             surpassed,
@@ -131,8 +138,14 @@ impl Evidence {
             _ if self.surpassed => Verdict::Unexplained,
             (_, true) if self.share > trusted && self.p_rest < BEYOND_CHANCE => Verdict::Unexplained,
             (_, true) if self.hidden || self.share > form => Verdict::PartlyExplained,
+            (1, true) if !self.plain && self.plainly_inexact() => Verdict::PartlyExplained,
             _ => Verdict::MissingPhysics,
         }
+    }
+
+    /// True where what is left would be seen beside the noise, however much was explained.
+    fn plainly_inexact(&self) -> bool {
+        self.share > SEEN[0] && self.lack_of_fit > SEEN[1] * self.noise
     }
 
     /// True where a mismatch is left: the law of the named effects is not exactly the catalogue's.
