@@ -34,6 +34,7 @@ mod look;
 mod missing;
 mod moments;
 mod monitor;
+mod motion;
 mod needless;
 mod next_test;
 mod noise;

@@ -6,18 +6,11 @@ use nalgebra::{DMatrix, DVector};
 
 use super::gaps::LeftOut;
 use super::missing::Projected;
+use super::motion::{COLUMNS, functions_of_the_motion};
 use super::null::Null;
 use super::resolution::step_of;
 use crate::kernel::filter::dot;
 
-/// Stretches of the displacement.
-const ACROSS: usize = 8;
-/// Stretches of the time of each recording.
-const LONG: usize = 6;
-/// Columns: the ends of the stretches, the squares of velocity and acceleration, and the sizes of the motion around.
-const COLUMNS: usize = ACROSS + LONG + 6;
-/// The sizes of the motion around are over so many seconds on either side.
-const AROUND: f64 = 1.0;
 /// Samples that are taken together: a mean of some keeps what is slow, and is as white.
 const TOGETHER: [usize; 3] = [1, 4, 16];
 /// Squares above this many variances count as this many: heavy tails are noise too.
@@ -121,7 +114,7 @@ impl Null<'_> {
         if deviation.is_nan() || deviation <= 0.0 {
             return None;
         }
-        let columns = self.functions_of_the_motion(r, start..start + left.len());
+        let columns = functions_of_the_motion(&self.scene(r), start..start + left.len());
         let means = |column: Vec<f64>| {
             let mean = |some: &[f64]| some.iter().sum::<f64>() / together as f64;
             column.chunks_exact(together).map(mean).collect()
@@ -135,46 +128,6 @@ impl Null<'_> {
                 .collect::<Option<_>>()?,
         })
     }
-
-    /// Hats over the displacement and over time, the squares of velocity and acceleration, over their largest, and the
-    /// mean squares of displacement and velocity around.
-    fn functions_of_the_motion(&self, r: usize, rows: std::ops::Range<usize>) -> Vec<Vec<f64>> {
-        let scene = self.scene(r);
-        let sizes = scene.sizes;
-        let (x, v) = (&scene.displacement[rows.clone()], &scene.velocity[rows]);
-        let last = v.len() - 1;
-        let place = |i: usize| (x[i] / sizes.displacement + 1.0) * 0.5 * ACROSS as f64;
-        let moment = |i: usize| (LONG * i) as f64 / last as f64;
-        let slope = |i: usize| v[(i + 1).min(last)] - v[i.saturating_sub(1)];
-        let square = |values: Vec<f64>| {
-            let largest = values.iter().fold(f64::MIN_POSITIVE, |far, v| far.max(v.abs()));
-            values.into_iter().map(|v| (v / largest).powi(2)).collect()
-        };
-        let hat = |at: &dyn Fn(usize) -> f64, k: usize| {
-            (0..=last).map(|i| (1.0 - (at(i) - k as f64).abs()).max(0.0)).collect()
-        };
-        let across = (0..=ACROSS).map(|k| hat(&place, k));
-        let mut columns: Vec<Vec<f64>> = across.chain((0..=LONG).map(|k| hat(&moment, k))).collect();
-        columns.push(square(v.to_vec()));
-        columns.push(square((0..v.len()).map(slope).collect()));
-        let reach = (AROUND / scene.step()) as usize;
-        columns.extend([x, v].map(|series| around(&square(series.to_vec()), reach)));
-        columns
-    }
-}
-
-/// Means over so many values on either side.
-fn around(values: &[f64], reach: usize) -> Vec<f64> {
-    let mut sums = vec![0.0];
-    for value in values {
-        sums.push(sums[sums.len() - 1] + value);
-    }
-    (0..values.len())
-        .map(|i| {
-            let (from, to) = (i.saturating_sub(reach), (i + reach + 1).min(values.len()));
-            (sums[to] - sums[from]) / (to - from) as f64
-        })
-        .collect()
 }
 
 impl Sizes {
