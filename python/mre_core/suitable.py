@@ -113,7 +113,7 @@ def _force_is_rougher(recordings: Sequence[Recording]) -> bool:
 
 def _rough(series: NDArray[np.float64]) -> float:
     """Size of the noise over that of the series: differences of a high order leave little of a motion."""
-    return float(np.std(np.diff(series, _SMOOTH)) / np.std(series))
+    return float(np.std(np.diff(series, _SMOOTH)) / np.std(series)) if series.size > _SMOOTH else 0.0
 
 
 def _has_cycle(x: NDArray[np.float64]) -> bool:

@@ -103,6 +103,11 @@ impl<'a> Assembly<'a> {
         own.filter_map(|(effect, shape)| effect.flexibility(shape)).reduce(|a, b| a + b)
     }
 
+    /// True where an effect cuts the measured force off.
+    pub fn clips(&self, shapes: &[f64]) -> bool {
+        self.effects.iter().zip(self.shape_of(shapes)).any(|(effect, shape)| effect.clip(shape).is_some())
+    }
+
     /// What effects see of a recording.
     pub fn scene(&self, r: usize) -> Scene<'_> {
         self.campaign.scene(r, &self.reference[r], &self.whole[r])

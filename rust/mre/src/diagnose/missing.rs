@@ -175,8 +175,10 @@ impl Null<'_> {
             own.into_iter().fold(0.0, |most: f64, s| most.max(s * s))
         };
         let gain = (0..recordings).map(largest).fold(0.0, f64::max);
-        let one = Mismatch::new(gain / MORE_CAUTION, 1);
-        Mismatch { p_value: (2.0 * recordings as f64 * one.p_value).min(1.0), ..one }
+        let (one, tests) = (Mismatch::new(gain / MORE_CAUTION, 1), 2.0 * recordings as f64);
+        // The largest of so many reaches about twice their logarithm by chance.
+        let by_chance = (2.0 * tests.ln()).ceil() as usize;
+        Mismatch { p_value: (tests * one.p_value).min(1.0), freedom: by_chance, ..one }
     }
 
     /// Project the features.

@@ -56,9 +56,9 @@ struct Sizes {
 impl Null<'_> {
     /// Test whether the size of what is left follows the motion.
     ///
-    /// A noise that a mismatch hides is not known: there is no test.
+    /// A noise that a mismatch hides is not known, and of clipped samples nothing is left: there is no test.
     pub(super) fn uneven(&self) -> Uneven {
-        if self.noise().hidden() {
+        if self.noise().hidden() || self.assembly().clips(&self.shapes()) {
             return Uneven::NONE;
         }
         let tried = TOGETHER.map(|together| self.uneven_in_means(together));
@@ -108,9 +108,10 @@ impl Null<'_> {
         let counts: Vec<bool> = counts.chunks_exact(together).map(whole).collect();
         let size = |some: &[f64]| (some.iter().sum::<f64>().powi(2) / together as f64).min(LARGEST);
         let squares: Vec<f64> = left.chunks_exact(together).map(size).collect();
-        let mean = squares.iter().sum::<f64>() / squares.len() as f64;
+        let counted = counts.iter().filter(|c| **c).count() as f64;
+        let mean = squares.iter().zip(&counts).filter(|(_, c)| **c).map(|(s, _)| s).sum::<f64>() / counted;
         let squares = centred(squares, &counts)?;
-        let deviation = (dot(&squares, &squares) / squares.len() as f64).sqrt();
+        let deviation = (dot(&squares, &squares) / counted).sqrt();
         if deviation.is_nan() || deviation <= 0.0 {
             return None;
         }

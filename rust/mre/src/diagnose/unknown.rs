@@ -50,7 +50,7 @@ pub struct Unknown {
     pub dissipative: f64,
     /// Rms of the map's force over the recordings, N.
     pub rms: f64,
-    /// Chance that the size of what is left has nothing to do with the motion.
+    /// Chance under the null that the size of what is left follows motion and time as much; one where that cannot be told.
     pub p_even: f64,
 }
 

@@ -22,8 +22,8 @@ pub(super) enum Backlash {
     Play,
 }
 
-/// Gaps that are tried where the velocity jumps with them: the smallest over the largest displacement, by which factor they rise, and how many
-/// they are.
+/// Gaps that are tried where the velocity jumps with them: the smallest over the largest displacement, by which factor
+/// they rise, and how many they are.
 const SMALLEST: f64 = 3e-4;
 const RATIO: f64 = 1.6;
 const COUNT: i32 = 15;

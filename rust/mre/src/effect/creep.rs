@@ -8,8 +8,8 @@
 //! | s | share of the stiffness lost a decade | - | 0 to 0.4 |
 //!
 //! The logarithmic kernel falls with `log10(1 + t/t_0)`: a spectrum of relaxation times that is flat above `t_0` and fades
-//! below it as `exp(-t_0/tau)`, here up to a hundred times the longest recording: the same
-//! for all, so that none is stiffer.
+//! below it as `exp(-t_0/tau)`, here up to a hundred times the longest recording: the same for all, so that none is
+//! stiffer.
 //! Reference: Findley, Lai and Onaran, Creep and Relaxation of Nonlinear Viscoelastic Materials, 1976.
 //! Known limit: with a mean displacement and in one recording it cannot be told from drift.
 

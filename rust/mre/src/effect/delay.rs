@@ -81,7 +81,7 @@ impl Effect for TimeDelay {
             },
             plain: "one channel lags the other by a fixed time",
             equation: if *self == Self::Motion {
-                "the device sees x(t - d)"
+                "the base model sees x(t - d)"
             } else {
                 "F_measured(t) = F(t - d)"
             },

@@ -1,26 +1,37 @@
 //! Threads that stay awake from generation to generation.
 
 use std::hint::spin_loop;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
 
 use rayon::Yield;
 
 /// Looks for work after which a thread lets others have the processor.
 const PATIENCE: u32 = 64;
+/// The job waits so long for the other threads to wake up.
+const WAKING: Duration = Duration::from_millis(1);
 
 /// Do a job on this thread of a pool, while the pool's other threads look for shares of it and never sleep.
 ///
 /// A generation of a fast fitness is over before a sleeping thread has woken up. Outside a pool the job is just done.
 pub fn awake<R: Send>(job: impl FnOnce() -> R + Send) -> R {
     let Some(home) = rayon::current_thread_index() else { return job() };
-    let over = AtomicBool::new(false);
+    let others = rayon::current_num_threads() - 1;
+    let (over, begun, ready) = (AtomicBool::new(false), AtomicBool::new(false), AtomicUsize::new(0));
     rayon::in_place_scope(|scope| {
-        let (_over, flag) = (Over(&over), &over);
+        let (_over, over, begun, ready) = (Over(&over), &over, &begun, &ready);
         scope.spawn_broadcast(move |_, context| {
-            if context.index() != home {
-                look_for_work(flag);
+            // Later, this thread may be at a share of the job, which would then wait for the end of the job.
+            if context.index() != home && !begun.load(Ordering::SeqCst) {
+                ready.fetch_add(1, Ordering::SeqCst);
+                look_for_work(over);
             }
         });
+        let asked = Instant::now();
+        while ready.load(Ordering::SeqCst) < others && asked.elapsed() < WAKING {
+            std::thread::yield_now();
+        }
+        begun.store(true, Ordering::SeqCst);
         job()
     })
 }

@@ -30,6 +30,9 @@ const PART_TERMS: [usize; 3] = [2, 4, TERMS];
 /// Between corners there are more than so many times as many samples for each term.
 const CALMER: f64 = 2.0;
 
+/// Of so many samples one at most swings beside a corner.
+const SWINGING: usize = 4;
+
 /// Widest half window in samples of what a displacement has beside its velocity.
 const WIDEST: usize = 200;
 
@@ -156,7 +159,11 @@ fn between_corners(derived: &mut Derived, time: &[f64], displacement: &[f64], wh
         derived.velocity[part.clone()].copy_from_slice(&velocity);
         derived.displacement[part].copy_from_slice(&smooth);
     }
-    let doubted = differences::missed(time, displacement, &derived.velocity, noise);
+    let mut doubted = differences::missed(time, displacement, &derived.velocity, noise);
+    // More are no corners: the noise is larger than it seems, as of a rounded displacement that mostly rests.
+    if SWINGING * doubted.len() > time.len() {
+        doubted.clear();
+    }
     // What has a memory needs all of the way, there too.
     for (i, difference) in &doubted {
         derived.velocity[*i] = *difference;
