@@ -36,3 +36,17 @@ def test_a_ripple_that_passes_for_noise_is_unexplained(seed: int) -> None:
 @pytest.mark.parametrize("seed", range(4))
 def test_noise_alone_is_adequate(seed: int) -> None:
     assert beating(0.0, seed).verdict == "adequate"
+
+
+def test_clipped_samples_are_no_quiet_noise() -> None:
+    """Noise before the channel that clips: of a clipped sample nothing is left."""
+    recordings = []
+    for k, (frequency, amplitude) in enumerate(((0.7, 4.0), (1.6, 6.0), (2.9, 5.0))):
+        rng = np.random.default_rng([k, 77])
+        t = np.arange(3000) / 200
+        x = amplitude * np.clip(t, 0, 1) * np.sin(2 * np.pi * frequency * t)
+        v = np.gradient(x, t)
+        force = np.clip(10 * x + 0.3 * v + 0.5 * rng.normal(size=t.size), -35, 35)
+        recordings.append(Recording(t, x, force, velocity=v, name=f"{frequency} Hz"))
+    found = diagnose(recordings, base="kelvin_voigt", seed=1)
+    assert (found.verdict, [e.id for e in found.effects]) == ("missing_physics", ["force_clipping"]), found
