@@ -177,7 +177,8 @@ def _uneven(found: Mapping[str, Any]) -> str:
     """Say that what looks like noise follows the motion, where it plainly does."""
     if found.get("p_even", 1.0) > PLAINLY_UNEVEN:
         return ""
-    return " What looks like noise is larger at some displacements, speeds or times than at others, as noise is not."
+    where = "at some displacements, speeds or times than at others"
+    return f" What looks like noise is larger {where}, as noise is not."
 
 
 def _by_recording(found: Mapping[str, Any]) -> str:
