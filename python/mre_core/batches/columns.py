@@ -69,11 +69,15 @@ def read_results(path: str | os.PathLike[str]) -> "pd.DataFrame":
         There is no such table, or the file is none.
     """
     import pandas as pd
+    from pyarrow import OSFile
 
     file = Path(path) / RESULTS if Path(path).is_dir() else Path(path)
     try:
-        with file.open("rb") as opened:
-            found = pd.read_parquet(opened)
+        file.open("rb").close()  # its words for what is wrong are shorter
+        # A process that ends while Arrow's threads still hold a file of Python's aborts (apache/arrow#34314).
+        name: Any = os.fsencode(file)  # names of files need not be text
+        with OSFile(name, "r") as opened:
+            found = pd.read_parquet(opened, use_threads=False)
     except OSError as error:
         problem = error.strerror or "is no Parquet file"
         raise InputError(
