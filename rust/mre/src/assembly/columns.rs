@@ -64,12 +64,12 @@ pub(super) struct Known {
 pub(super) struct Added {
     of: About,
     shape: Vec<f64>,
-    columns: Vec<Vec<Vec<f64>>>,
+    pub(super) columns: Vec<Vec<Vec<f64>>>,
     factors: Vec<Option<Factors>>,
 }
 
 impl Known {
-    fn added(&self, effect: &dyn Effect, shape: &[f64]) -> Option<&Added> {
+    pub(super) fn added(&self, effect: &dyn Effect, shape: &[f64]) -> Option<&Added> {
         self.effects.iter().find(|known| known.shape == shape && known.of == effect.about())
     }
 }
@@ -93,11 +93,21 @@ impl Assembly<'_> {
         self.base_seen(jobs)
             .into_par_iter()
             .zip(jobs)
-            .map(|(base, (r, shapes))| self.with_effects(*r, shapes, base))
+            .map(|(base, (r, shapes))| {
+                let mut columns = self.with_effects(*r, shapes, base);
+                self.measure(*r, shapes, &mut columns);
+                columns
+            })
             .collect()
     }
 
-    /// Columns of a recording from those of its base.
+    /// Force in N of the device with all its effects, before it is measured.
+    pub(super) fn force_of_the_device(&self, r: usize, shapes: &[f64], coefficients: &[f64]) -> Vec<f64> {
+        let base = self.base_seen(&[(r, shapes)]).pop().unwrap_or_default();
+        self.with_effects(r, shapes, base).force(coefficients)
+    }
+
+    /// Columns of a device from those of its base.
     fn with_effects(&self, r: usize, shapes: &[f64], base: BaseColumns) -> Columns {
         let shape_of = self.shape_of(shapes);
         let scene = self.scene(r);
@@ -229,44 +239,6 @@ impl Assembly<'_> {
             motion = effect.motion(&scene, shape).or(so_far);
         }
         (motion, current)
-    }
-
-    fn effect_columns(&self, r: usize, scene: &Scene, shape_of: &[&[f64]], found: &mut Columns) {
-        let count = self.campaign.recordings().len();
-        let mut next = self.base_coefficients();
-        let mut readings = Vec::new();
-        for (effect, shape) in self.effects.iter().zip(shape_of) {
-            let known = self.known.as_ref().and_then(|known| known.added(*effect, shape));
-            let columns =
-                known.map_or_else(|| effect.columns(scene, shape), |known| known.columns[r].clone());
-            let first = next + if effect.of_the_measurement() { r * columns.len() } else { 0 };
-            let width = columns.len();
-            let placed = columns.into_iter().enumerate().map(|(k, column)| (first + k, column));
-            if effect.of_the_measurement() {
-                readings.extend(placed);
-                next += count * width;
-            } else {
-                for (place, column) in placed {
-                    found.places.push(place);
-                    found.columns.push(column);
-                }
-                next += width;
-            }
-        }
-        for (effect, shape) in self.effects.iter().zip(shape_of) {
-            for column in found.columns.iter_mut().chain(&mut found.given) {
-                if let Some(measured) = effect.through(scene, shape, column) {
-                    *column = measured;
-                }
-            }
-            if let Some((low, high)) = effect.clip(shape) {
-                found.clip = Some(found.clip.map_or((low, high), |(l, h)| (low.max(l), high.min(h))));
-            }
-        }
-        for (place, column) in readings {
-            found.places.push(place);
-            found.columns.push(column);
-        }
     }
 }
 

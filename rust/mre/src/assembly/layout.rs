@@ -87,7 +87,7 @@ impl<'a> Assembly<'a> {
         let own: Vec<f64> = coefficients.iter().zip(device).map(|(c, d)| if d { *c } else { 0.0 }).collect();
         let flexibility = self.flexibility(&shapes);
         let better = |(r, recording): (usize, &Arc<Recording>)| {
-            let given = self.columns(r, &shapes).force(&own);
+            let given = self.force_of_the_device(r, &shapes, &own);
             match flexibility {
                 Some(flexibility) => nearer(recording, &self.whole[r], &given, flexibility),
                 None => given,

@@ -4,6 +4,7 @@
 mod base;
 mod campaign;
 mod columns;
+mod effect_columns;
 mod in_series;
 mod kept;
 mod layout;

@@ -53,6 +53,27 @@ struct Sizes {
     columns: Vec<Vec<f64>>,
 }
 
+/// How squares follow the motion, all recordings together.
+struct Followed {
+    together: usize,
+    p_value: f64,
+    /// Products of the columns with themselves.
+    plain: DMatrix<f64>,
+    /// Products of the columns with the squares.
+    right: DVector<f64>,
+}
+
+impl Followed {
+    /// Of the columns, by least squares.
+    fn weights(&self) -> Option<DVector<f64>> {
+        let mut gram = self.plain.clone();
+        for i in 0..COLUMNS {
+            gram[(i, i)] += RIDGE * gram[(i, i)] + f64::MIN_POSITIVE;
+        }
+        Some(gram.cholesky()?.solve(&self.right))
+    }
+}
+
 impl Null<'_> {
     /// Test whether the size of what is left follows the motion.
     ///
@@ -61,29 +82,51 @@ impl Null<'_> {
         if self.noise().hidden() || self.assembly().clips(&self.shapes()) {
             return Uneven::NONE;
         }
-        let tried = TOGETHER.map(|together| self.uneven_in_means(together));
-        let [one, others @ ..] = tried;
-        let best =
-            others.into_iter().fold(one, |best, next| if next.p_value < best.p_value { next } else { best });
-        Uneven { p_value: (best.p_value * TOGETHER.len() as f64).min(1.0), ..best }
+        let tried = TOGETHER.iter().filter_map(|together| self.followed(*together));
+        let best = tried.reduce(|best, next| if next.p_value < best.p_value { next } else { best });
+        best.map_or(Uneven::NONE, |best| Uneven {
+            p_value: (best.p_value * TOGETHER.len() as f64).min(1.0),
+            swallowed: self.swallowed(&best),
+        })
     }
 
-    /// The same of means over so many samples.
-    fn uneven_in_means(&self, together: usize) -> Uneven {
-        let recordings = self.assembly().campaign().recordings().len();
-        let all: Vec<Sizes> = (0..recordings).filter_map(|r| self.sizes_over_motion(r, together)).collect();
-        if all.is_empty() {
-            return Uneven::NONE;
-        }
-        let (mut gram, mut right) = (DMatrix::zeros(COLUMNS, COLUMNS), DVector::zeros(COLUMNS));
-        for own in &all {
+    /// How means over so many samples follow the motion; one recording after the other, for the memory's sake.
+    fn followed(&self, together: usize) -> Option<Followed> {
+        let nothing = || DMatrix::zeros(COLUMNS, COLUMNS);
+        let (mut plain, mut gram, mut right) = (nothing(), nothing(), DVector::zeros(COLUMNS));
+        for own in self.sizes(together) {
+            plain += own.products(0);
             gram += own.covariance();
             right += DVector::from_fn(COLUMNS, |i, _| dot(&own.columns[i], &own.squares));
         }
         let squares: Vec<f64> = (0..COLUMNS).map(|i| gram[(i, i)]).collect();
         let chosen: Vec<usize> = (0..COLUMNS).collect();
-        let p_value = Projected::of(&gram, &right, &squares, &chosen).mismatch().cautious();
-        Uneven { p_value, swallowed: swallowed(&all, &right) }
+        (gram.trace() > 0.0).then(|| Followed {
+            together,
+            p_value: Projected::of(&gram, &right, &squares, &chosen).mismatch().cautious(),
+            plain,
+            right,
+        })
+    }
+
+    /// Squared standard deviations in what is left beyond those of where the motion leaves least.
+    fn swallowed(&self, followed: &Followed) -> f64 {
+        let Some(weights) = followed.weights() else { return 0.0 };
+        let mut sizes: Vec<f64> = Vec::new();
+        for own in self.sizes(followed.together) {
+            let follows = |i: usize| (0..COLUMNS).map(|k| weights[k] * own.columns[k][i]).sum::<f64>();
+            sizes.extend((0..own.squares.len()).map(|i| 1.0 + own.spread * follows(i)));
+        }
+        let place = (QUIET * sizes.len() as f64) as usize;
+        let (_, quiet, _) = sizes.select_nth_unstable_by(place, f64::total_cmp);
+        let share = 1.0 - quiet.max(0.0);
+        if share > LEAST { share * sizes.len() as f64 } else { 0.0 }
+    }
+
+    /// Of the recordings that tell something.
+    fn sizes(&self, together: usize) -> impl Iterator<Item = Sizes> {
+        let recordings = self.assembly().campaign().recordings().len();
+        (0..recordings).filter_map(move |r| self.sizes_over_motion(r, together))
     }
 
     fn sizes_over_motion(&self, r: usize, together: usize) -> Option<Sizes> {
@@ -132,45 +175,26 @@ impl Null<'_> {
 }
 
 impl Sizes {
+    /// Products of the columns with themselves so many samples later.
+    fn products(&self, lag: usize) -> DMatrix<f64> {
+        let (columns, last) = (&self.columns, self.squares.len());
+        DMatrix::from_fn(COLUMNS, COLUMNS, |i, j| dot(&columns[i][lag..], &columns[j][..last - lag]))
+    }
+
     /// Covariance of the products of the columns with the squares under the null; neighbouring squares are correlated.
     fn covariance(&self) -> DMatrix<f64> {
-        let (columns, last) = (&self.columns, self.squares.len());
-        let mut gram = DMatrix::from_fn(COLUMNS, COLUMNS, |i, j| dot(&columns[i], &columns[j]));
+        let last = self.squares.len();
+        let mut gram = self.products(0);
         for lag in 1..MEMORY.min(last / 4) {
             let correlation = dot(&self.squares[lag..], &self.squares[..last - lag]) / last as f64;
             if correlation.abs() < BY_CHANCE / (last as f64).sqrt() {
                 continue;
             }
-            let share = 1.0 - lag as f64 / MEMORY as f64;
-            let later = DMatrix::from_fn(COLUMNS, COLUMNS, |i, j| {
-                correlation * share * dot(&columns[i][lag..], &columns[j][..last - lag])
-            });
+            let later = self.products(lag) * (correlation * (1.0 - lag as f64 / MEMORY as f64));
             gram += &later + later.transpose();
         }
         gram
     }
-}
-
-/// Squared standard deviations in what is left beyond those of where the motion leaves least.
-fn swallowed(all: &[Sizes], right: &DVector<f64>) -> f64 {
-    let mut gram = DMatrix::<f64>::zeros(COLUMNS, COLUMNS);
-    for own in all {
-        gram += DMatrix::from_fn(COLUMNS, COLUMNS, |i, j| dot(&own.columns[i], &own.columns[j]));
-    }
-    for i in 0..COLUMNS {
-        gram[(i, i)] += RIDGE * gram[(i, i)] + f64::MIN_POSITIVE;
-    }
-    let Some(factor) = gram.cholesky() else { return 0.0 };
-    let weights = factor.solve(right);
-    let mut sizes: Vec<f64> = Vec::new();
-    for own in all {
-        let follows = |i: usize| (0..COLUMNS).map(|k| weights[k] * own.columns[k][i]).sum::<f64>();
-        sizes.extend((0..own.squares.len()).map(|i| 1.0 + own.spread * follows(i)));
-    }
-    let place = (QUIET * sizes.len() as f64) as usize;
-    let (_, quiet, _) = sizes.select_nth_unstable_by(place, f64::total_cmp);
-    let share = 1.0 - quiet.max(0.0);
-    if share > LEAST { share * sizes.len() as f64 } else { 0.0 }
 }
 
 /// Values about the mean of those that count, the others zero; `None` of too few.

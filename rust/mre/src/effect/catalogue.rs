@@ -255,6 +255,7 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &Clipping::Both,
     &Clipping::Upper,
     &Clipping::Lower,
+    &Clipping::Gradual,
     &Mains { harmonics: 1 },
     &Mains { harmonics: 3 },
     &FilterLag::Force,

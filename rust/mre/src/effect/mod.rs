@@ -192,6 +192,12 @@ pub trait Effect: Send + Sync {
         None
     }
 
+    /// Share of the force of the device that is measured at every sample.
+    fn shown(&self, scene: &Scene, shape: &[f64]) -> Option<Vec<f64>> {
+        let _ = (scene, shape);
+        None
+    }
+
     /// Lowest and highest force that is measured, N.
     fn clip(&self, shape: &[f64]) -> Option<(f64, f64)> {
         let _ = shape;

@@ -179,6 +179,22 @@ fn drift_and_hum_are_of_the_measurement() {
 }
 
 #[test]
+fn an_amplifier_saturates_at_its_level() {
+    let stage = Stage::sine(2.0, 1.0, 4.0);
+    let scene = stage.scene();
+    let largest = scene.whole.iter().fold(0.0_f64, |far, f| far.max(f.abs()));
+    let shown = |level: f64, sharpness: f64| {
+        law("force_clipping", "gradual").shown(&scene, &[level, sharpness]).unwrap()
+    };
+    for ((share, hard), force) in shown(largest, 2.0).iter().zip(shown(0.5 * largest, 200.0)).zip(scene.whole)
+    {
+        assert!((share * force - force / (1.0 + (force / largest).powi(2)).sqrt()).abs() < 1e-12 * largest);
+        let clamped = force.clamp(-0.5 * largest, 0.5 * largest);
+        assert!((hard * force - clamped).abs() < 0.01 * largest);
+    }
+}
+
+#[test]
 fn a_hum_is_told_from_motion_where_it_is_sampled_or_folded_far_above_it() {
     for (frequency, rate, wanted) in [
         (50.0, 1000.0, true),

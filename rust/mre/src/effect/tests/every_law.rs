@@ -77,6 +77,7 @@ fn made(effect: &dyn Effect, scene: &Scene, shape: &[f64]) -> Vec<Vec<f64>> {
     }
     all.extend(effect.current(scene, shape));
     all.extend(effect.through(scene, shape, scene.force));
+    all.extend(effect.shown(scene, shape));
     if let Some((low, high)) = effect.clip(shape) {
         all.push(scene.force.iter().map(|f| f.clamp(low, high)).collect());
     }

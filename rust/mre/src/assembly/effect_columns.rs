@@ -1,0 +1,71 @@
+//! What the effects of an assembly do to a recording: to the force of the device, and to what is measured of it.
+
+use super::columns::Columns;
+use super::layout::Assembly;
+use crate::effect::{Effect, Scene};
+
+impl Assembly<'_> {
+    /// What effects add to the force, and channels through which it goes.
+    pub(super) fn effect_columns(&self, r: usize, scene: &Scene, shape_of: &[&[f64]], found: &mut Columns) {
+        for (effect, shape, first) in self.placed(shape_of) {
+            if !effect.of_the_measurement() {
+                for (k, column) in self.own_columns(effect, shape, r, scene).into_iter().enumerate() {
+                    found.places.push(first + k);
+                    found.columns.push(column);
+                }
+            }
+        }
+        for (effect, shape) in self.effects.iter().zip(shape_of) {
+            for column in found.columns.iter_mut().chain(&mut found.given) {
+                if let Some(measured) = effect.through(scene, shape, column) {
+                    *column = measured;
+                }
+            }
+        }
+    }
+
+    /// What is measured of the force of a device.
+    pub(super) fn measure(&self, r: usize, shapes: &[f64], found: &mut Columns) {
+        let (scene, shape_of) = (self.scene(r), self.shape_of(shapes));
+        for (effect, shape) in self.effects.iter().zip(&shape_of) {
+            if let Some(shown) = effect.shown(&scene, shape) {
+                for column in found.columns.iter_mut().chain(&mut found.given) {
+                    column.iter_mut().zip(&shown).for_each(|(value, share)| *value *= share);
+                }
+            }
+            if let Some((low, high)) = effect.clip(shape) {
+                found.clip = Some(found.clip.map_or((low, high), |(l, h)| (low.max(l), high.min(h))));
+            }
+        }
+        for (effect, shape, first) in self.placed(&shape_of) {
+            if effect.of_the_measurement() {
+                let columns = self.own_columns(effect, shape, r, &scene);
+                let first = first + r * columns.len();
+                for (k, column) in columns.into_iter().enumerate() {
+                    found.places.push(first + k);
+                    found.columns.push(column);
+                }
+            }
+        }
+    }
+
+    /// Effects with their shapes and the place of their first coefficient.
+    fn placed<'s>(
+        &self,
+        shape_of: &'s [&'s [f64]],
+    ) -> impl Iterator<Item = (&'static dyn Effect, &'s [f64], usize)> {
+        let mut next = self.base_coefficients();
+        let recordings = self.campaign.recordings().len();
+        self.effects.iter().zip(shape_of).map(move |(effect, shape)| {
+            let first = next;
+            next += effect.coefficients().len() * if effect.of_the_measurement() { recordings } else { 1 };
+            (*effect, *shape, first)
+        })
+    }
+
+    /// Columns of an effect; taken over where they are known.
+    fn own_columns(&self, effect: &dyn Effect, shape: &[f64], r: usize, scene: &Scene) -> Vec<Vec<f64>> {
+        let known = self.known.as_ref().and_then(|known| known.added(effect, shape));
+        known.map_or_else(|| effect.columns(scene, shape), |known| known.columns[r].clone())
+    }
+}
