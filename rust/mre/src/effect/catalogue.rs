@@ -38,6 +38,7 @@ use super::work::Work;
 pub const CATALOGUE: &[&dyn Effect] = &[
     &Maxwell::One,
     &Maxwell::Two,
+    &Maxwell::Stiffening,
     &WithCurrent {
         law: &Maxwell::One,
         name: "one branch, with the current",
@@ -262,6 +263,8 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &FilterLag::Displacement,
     &FilterLag::Butterworth,
     &Creep::Logarithmic,
+    &Creep::Stiffening,
+    &Creep::Box,
     &Creep::Slow,
     &Creep::Ageing,
     &Creep::AgeingWhole,
