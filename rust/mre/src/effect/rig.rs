@@ -3,7 +3,7 @@
 //! | symbol | meaning | unit | range |
 //! |---|---|---|---|
 //! | `f_r` | flexibility of the rig, 1/`k_r`; of a joint at the largest force `F_m` | mm/N | 0 to half the flexibility of the device |
-//! | `t_r` | retardation time of a rig that gives way slowly | s | two samples to half the longest recording |
+//! | `t_r` | retardation time of a rig that gives way slowly | s | a fifth of a sample to half the longest recording |
 //!
 //! The force that bends the rig is that of the device, as far as it is known.
 //! Reference: a spring, or a Kelvin-Voigt element, in series; a joint of rough or round surfaces (Johnson, Contact
@@ -65,7 +65,7 @@ impl Effect for Rig {
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
         let mut shape = vec![within("f_r", "mm/N", 0.0, 0.5 * sizes.displacement / sizes.force)];
         if *self == Self::Viscoelastic {
-            shape.push(order_within("t_r", "s", 2.0 * sizes.step, 0.5 * sizes.duration));
+            shape.push(order_within("t_r", "s", 0.2 * sizes.step, 0.5 * sizes.duration));
         }
         shape
     }
@@ -74,10 +74,10 @@ impl Effect for Rig {
         let flexible = 0.03 * sizes.displacement / sizes.force;
         match self {
             Self::Spring | Self::Joint => vec![vec![flexible]],
-            Self::Viscoelastic => [0.003, 0.03, 0.2]
-                .iter()
-                .map(|share| vec![flexible, (share * sizes.duration).max(2.0 * sizes.step)])
-                .collect(),
+            Self::Viscoelastic => {
+                let slow = [0.003, 0.03, 0.2].map(|share| (share * sizes.duration).max(2.0 * sizes.step));
+                [sizes.step].into_iter().chain(slow).map(|t_r| vec![flexible, t_r]).collect()
+            }
         }
     }
 
