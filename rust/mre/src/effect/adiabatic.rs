@@ -8,7 +8,7 @@
 //! Reference: Kalpakidis and Constantinou, J. Struct. Eng. 135 (2009) 1394.
 //! Known limit: it is cyclic degradation by energy; a rest, or a longer test, would tell.
 
-use super::degradation::{Degradation, Progress};
+use super::degradation::{Degradation, Form, Progress};
 use super::work::Work;
 use super::{About, Effect, Factors, Scene, Sizes};
 use crate::parameter::Parameter;
@@ -25,7 +25,7 @@ pub(super) struct Adiabatic {
 impl Adiabatic {
     /// Degradation by the same energy.
     fn law(self) -> Degradation {
-        Degradation { by: Progress::Energy(self.by), saturates: false, whole: self.whole }
+        Degradation { by: Progress::Energy(self.by), form: Form::Steady, whole: self.whole }
     }
 }
 

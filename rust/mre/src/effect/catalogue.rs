@@ -8,7 +8,7 @@ use super::clipping::Clipping;
 use super::coulomb::Coulomb;
 use super::creep::Creep;
 use super::cubic::OddElastic;
-use super::degradation::{Degradation, Progress};
+use super::degradation::{Degradation, Form, Progress};
 use super::delay::TimeDelay;
 use super::drift::Drift;
 use super::end_stop::EndStop;
@@ -148,55 +148,67 @@ pub const CATALOGUE: &[&dyn Effect] = &[
         "dissipated power, no cooling, hysteretic force",
         "k_w -> k_w (1 - s T/T_max), T the largest integral of F v so far",
     ),
-    &Degradation { by: Progress::Path, saturates: false, whole: false },
-    &Degradation { by: Progress::Path, saturates: false, whole: true },
-    &Degradation { by: Progress::Path, saturates: true, whole: false },
-    &Degradation { by: Progress::Path, saturates: true, whole: true },
-    &Degradation { by: Progress::Energy(Work::Passed), saturates: false, whole: false },
-    &Degradation { by: Progress::Energy(Work::Passed), saturates: false, whole: true },
-    &Degradation { by: Progress::Energy(Work::Passed), saturates: true, whole: false },
-    &Degradation { by: Progress::Energy(Work::Passed), saturates: true, whole: true },
-    &Degradation { by: Progress::Energy(Work::Net), saturates: false, whole: false },
-    &Degradation { by: Progress::Energy(Work::Net), saturates: false, whole: true },
-    &Degradation { by: Progress::Energy(Work::Net), saturates: true, whole: false },
-    &Degradation { by: Progress::Energy(Work::Net), saturates: true, whole: true },
-    &Degradation { by: Progress::Energy(Work::Viscous), saturates: false, whole: false },
-    &Degradation { by: Progress::Energy(Work::Viscous), saturates: false, whole: true },
-    &Degradation { by: Progress::Energy(Work::Viscous), saturates: true, whole: false },
-    &Degradation { by: Progress::Energy(Work::Viscous), saturates: true, whole: true },
-    &OnPart::springs(&Degradation { by: Progress::Path, saturates: false, whole: false }, "path, spring"),
+    &Degradation { by: Progress::Path, form: Form::Steady, whole: false },
+    &Degradation { by: Progress::Path, form: Form::Steady, whole: true },
+    &Degradation { by: Progress::Path, form: Form::Saturating, whole: false },
+    &Degradation { by: Progress::Path, form: Form::Saturating, whole: true },
+    &Degradation { by: Progress::Energy(Work::Passed), form: Form::Steady, whole: false },
+    &Degradation { by: Progress::Energy(Work::Passed), form: Form::Steady, whole: true },
+    &Degradation { by: Progress::Energy(Work::Passed), form: Form::Saturating, whole: false },
+    &Degradation { by: Progress::Energy(Work::Passed), form: Form::Saturating, whole: true },
+    &Degradation { by: Progress::Energy(Work::Net), form: Form::Steady, whole: false },
+    &Degradation { by: Progress::Energy(Work::Net), form: Form::Steady, whole: true },
+    &Degradation { by: Progress::Energy(Work::Net), form: Form::Saturating, whole: false },
+    &Degradation { by: Progress::Energy(Work::Net), form: Form::Saturating, whole: true },
+    &Degradation { by: Progress::Energy(Work::Viscous), form: Form::Steady, whole: false },
+    &Degradation { by: Progress::Energy(Work::Viscous), form: Form::Steady, whole: true },
+    &Degradation { by: Progress::Energy(Work::Viscous), form: Form::Saturating, whole: false },
+    &Degradation { by: Progress::Energy(Work::Viscous), form: Form::Saturating, whole: true },
+    &Degradation { by: Progress::Energy(Work::Passed), form: Form::Hyperbolic, whole: false },
+    &Degradation { by: Progress::Energy(Work::Net), form: Form::Hyperbolic, whole: false },
+    &Degradation { by: Progress::Strokes, form: Form::Saturating, whole: false },
+    &Degradation { by: Progress::Strokes, form: Form::Hyperbolic, whole: false },
+    &OnPart::springs(&Degradation { by: Progress::Path, form: Form::Steady, whole: false }, "path, spring"),
     &OnPart::springs(
-        &Degradation { by: Progress::Path, saturates: true, whole: false },
+        &Degradation { by: Progress::Path, form: Form::Saturating, whole: false },
         "path, saturating, spring",
     ),
     &OnPart::springs(
-        &Degradation { by: Progress::Energy(Work::Passed), saturates: false, whole: false },
+        &Degradation { by: Progress::Energy(Work::Passed), form: Form::Steady, whole: false },
         "energy, spring",
     ),
     &OnPart::springs(
-        &Degradation { by: Progress::Energy(Work::Passed), saturates: true, whole: false },
+        &Degradation { by: Progress::Energy(Work::Passed), form: Form::Saturating, whole: false },
         "energy, saturating, spring",
     ),
     &OnPart::springs(
-        &Degradation { by: Progress::Energy(Work::Net), saturates: false, whole: false },
+        &Degradation { by: Progress::Energy(Work::Passed), form: Form::Hyperbolic, whole: false },
+        "energy, hyperbolic, spring",
+    ),
+    &OnPart::springs(
+        &Degradation { by: Progress::Strokes, form: Form::Hyperbolic, whole: false },
+        "strokes, hyperbolic, spring",
+    ),
+    &OnPart::springs(
+        &Degradation { by: Progress::Energy(Work::Net), form: Form::Steady, whole: false },
         "dissipated energy, spring",
     ),
     &OnPart::springs(
-        &Degradation { by: Progress::Energy(Work::Net), saturates: true, whole: false },
+        &Degradation { by: Progress::Energy(Work::Net), form: Form::Saturating, whole: false },
         "dissipated energy, saturating, spring",
     ),
     &OnPart::hysteretic(
-        &Degradation { by: Progress::Path, saturates: false, whole: false },
+        &Degradation { by: Progress::Path, form: Form::Steady, whole: false },
         "path, hysteretic force",
         "k_w -> k_w (1 - s P/P_max), P the path travelled",
     ),
     &OnPart::hysteretic(
-        &Degradation { by: Progress::Energy(Work::Net), saturates: false, whole: false },
+        &Degradation { by: Progress::Energy(Work::Net), form: Form::Steady, whole: false },
         "dissipated energy, hysteretic force",
         "k_w -> k_w (1 - s E/E_max), E the largest integral of F v so far",
     ),
     &OnPart::hysteretic(
-        &Degradation { by: Progress::Energy(Work::Net), saturates: true, whole: false },
+        &Degradation { by: Progress::Energy(Work::Net), form: Form::Saturating, whole: false },
         "dissipated energy, saturating, hysteretic force",
         "k_w -> k_w (1 - s (1 - exp(-E/E_c))), E the largest integral of F v so far",
     ),

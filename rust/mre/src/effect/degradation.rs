@@ -2,12 +2,12 @@
 //!
 //! | symbol | meaning | unit | range |
 //! |---|---|---|---|
-//! | s | share that is lost at the longest path or the most energy (linear), or in the end (saturating) | - | 0 to 0.95 |
-//! | `P_c` | path at which 63 % of it is lost | mm | 1 % to 200 % of the longest path |
-//! | `E_c` | energy at which 63 % of it is lost | N mm (heat: mm^2/s) | 1 % to 200 % of the most energy |
+//! | s | share that is lost at the longest path or the most energy (linear), or in the end (saturating, hyperbolic) | - | 0 to 0.95 |
+//! | `P_c` | path at which 63 % of it is lost (hyperbolic: half) | mm | 1 % to 200 % of the longest path |
+//! | `E_c` | energy at which 63 % of it is lost (hyperbolic: half) | N mm (heat: mm^2/s, strokes: mm^2) | 1 % to 200 % of the most energy |
 //!
 //! The energy is the integral of `|F v|` with the force of the base model alone, or what stays of it in the device,
-//! or the heat of a dashpot, in proportion to the integral of `v^2`.
+//! or the heat of a dashpot, in proportion to the integral of `v^2`, or the strokes, each by its square.
 //! Reference: Baber and Wen, J. Eng. Mech. Div. 107 (1981) 1069.
 //! Known limit: over a few equal cycles it cannot be told from thermal softening.
 
@@ -31,8 +31,21 @@ macro_rules! both {
 pub(super) enum Progress {
     /// The path travelled.
     Path,
+    /// The strokes, each by its square.
+    Strokes,
     /// The energy put in.
     Energy(Work),
+}
+
+/// How the share that is lost follows the progress.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Form {
+    /// In proportion.
+    Steady,
+    /// Exponentially to an end.
+    Saturating,
+    /// As a stiffness over `1 + E/E_c` falls.
+    Hyperbolic,
 }
 
 /// A law of degradation.
@@ -40,8 +53,8 @@ pub(super) enum Progress {
 pub(super) struct Degradation {
     /// What it follows.
     pub(super) by: Progress,
-    /// True where it saturates.
-    pub(super) saturates: bool,
+    /// How.
+    pub(super) form: Form,
     /// True where damping degrades like stiffness.
     pub(super) whole: bool,
 }
@@ -51,6 +64,7 @@ impl Degradation {
     fn progress(self, scene: &Scene) -> Vec<f64> {
         match self.by {
             Progress::Path => integral(scene, |i| scene.velocity[i].abs()),
+            Progress::Strokes => integral(scene, |i| (scene.displacement[i] * scene.velocity[i]).abs()),
             Progress::Energy(work) => {
                 let power = work.power(scene);
                 let energy = integral(scene, |i| power[i]);
@@ -63,53 +77,97 @@ impl Degradation {
     fn most(self, sizes: &Sizes) -> f64 {
         match self.by {
             Progress::Path => sizes.path,
+            // Of strokes that are all as large as the largest.
+            Progress::Strokes => 0.5 * sizes.path * sizes.displacement,
             Progress::Energy(work) => work.most(sizes),
         }
     }
 
     /// Name and equation on the stiffness and on the whole force.
     fn words(self) -> [(&'static str, &'static str); 2] {
-        match (self.by, self.saturates) {
-            (Progress::Path, false) => {
+        match (self.by, self.form) {
+            (Progress::Path, Form::Steady) => {
                 both!("path, stiffness", "path, whole force", "1 - s P/P_max", "P the path travelled")
             }
-            (Progress::Path, true) => both!(
+            (Progress::Path, Form::Saturating) => both!(
                 "path, saturating, stiffness",
                 "path, saturating, whole force",
                 "1 - s (1 - exp(-P/P_c))",
                 "P the path travelled"
             ),
-            (Progress::Energy(Work::Passed), false) => {
+            (Progress::Energy(Work::Passed), Form::Steady) => {
                 both!("energy, stiffness", "energy, whole force", "1 - s E/E_max", "E the integral of |F v|")
             }
-            (Progress::Energy(Work::Passed), true) => both!(
+            (Progress::Energy(Work::Passed), Form::Saturating) => both!(
                 "energy, saturating, stiffness",
                 "energy, saturating, whole force",
                 "1 - s (1 - exp(-E/E_c))",
                 "E the integral of |F v|"
             ),
-            (Progress::Energy(Work::Net), false) => both!(
+            (Progress::Energy(Work::Net), Form::Steady) => both!(
                 "dissipated energy, stiffness",
                 "dissipated energy, whole force",
                 "1 - s E/E_max",
                 "E the largest integral of F v so far"
             ),
-            (Progress::Energy(Work::Net), true) => both!(
+            (Progress::Energy(Work::Net), Form::Saturating) => both!(
                 "dissipated energy, saturating, stiffness",
                 "dissipated energy, saturating, whole force",
                 "1 - s (1 - exp(-E/E_c))",
                 "E the largest integral of F v so far"
             ),
-            (Progress::Energy(Work::Viscous), false) => both!(
+            (Progress::Energy(Work::Viscous), Form::Steady) => both!(
                 "viscous heat, stiffness",
                 "viscous heat, whole force",
                 "1 - s E/E_max",
                 "E the integral of v^2"
             ),
-            (Progress::Energy(Work::Viscous), true) => both!(
+            (Progress::Energy(Work::Viscous), Form::Saturating) => both!(
                 "viscous heat, saturating, stiffness",
                 "viscous heat, saturating, whole force",
                 "1 - s (1 - exp(-E/E_c))",
+                "E the integral of v^2"
+            ),
+            (Progress::Strokes, Form::Steady) => both!(
+                "strokes, stiffness",
+                "strokes, whole force",
+                "1 - s E/E_max",
+                "E the integral of |x v|"
+            ),
+            (Progress::Strokes, Form::Saturating) => both!(
+                "strokes, saturating, stiffness",
+                "strokes, saturating, whole force",
+                "1 - s (1 - exp(-E/E_c))",
+                "E the integral of |x v|"
+            ),
+            (Progress::Strokes, Form::Hyperbolic) => both!(
+                "strokes, hyperbolic, stiffness",
+                "strokes, hyperbolic, whole force",
+                "1 - s E/(E_c + E)",
+                "E the integral of |x v|"
+            ),
+            (Progress::Path, Form::Hyperbolic) => both!(
+                "path, hyperbolic, stiffness",
+                "path, hyperbolic, whole force",
+                "1 - s P/(P_c + P)",
+                "P the path travelled"
+            ),
+            (Progress::Energy(Work::Passed), Form::Hyperbolic) => both!(
+                "energy, hyperbolic, stiffness",
+                "energy, hyperbolic, whole force",
+                "1 - s E/(E_c + E)",
+                "E the integral of |F v|"
+            ),
+            (Progress::Energy(Work::Net), Form::Hyperbolic) => both!(
+                "dissipated energy, hyperbolic, stiffness",
+                "dissipated energy, hyperbolic, whole force",
+                "1 - s E/(E_c + E)",
+                "E the largest integral of F v so far"
+            ),
+            (Progress::Energy(Work::Viscous), Form::Hyperbolic) => both!(
+                "viscous heat, hyperbolic, stiffness",
+                "viscous heat, hyperbolic, whole force",
+                "1 - s E/(E_c + E)",
                 "E the integral of v^2"
             ),
         }
@@ -131,10 +189,11 @@ impl Effect for Degradation {
 
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
         let mut shape = vec![within("s", "", 0.0, 0.95)];
-        if self.saturates {
+        if self.form != Form::Steady {
             let (name, unit) = match self.by {
                 Progress::Path => ("P_c", "mm"),
                 Progress::Energy(Work::Viscous) => ("E_c", "mm^2/s"),
+                Progress::Strokes => ("E_c", "mm^2"),
                 Progress::Energy(_) => ("E_c", "N mm"),
             };
             let most = self.most(sizes);
@@ -144,10 +203,11 @@ impl Effect for Degradation {
     }
 
     fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
-        if self.saturates {
-            [0.03, 0.12, 0.5].iter().map(|share| vec![0.2, share * self.most(sizes)]).collect()
-        } else {
-            vec![vec![0.2]]
+        match self.form {
+            Form::Steady => vec![vec![0.2]],
+            Form::Saturating | Form::Hyperbolic => {
+                [0.03, 0.12, 0.5].iter().map(|share| vec![0.2, share * self.most(sizes)]).collect()
+            }
         }
     }
 
@@ -155,7 +215,11 @@ impl Effect for Degradation {
         let mut progress = self.progress(scene);
         let most = self.most(scene.sizes);
         for p in &mut progress {
-            *p = if self.saturates { -(-*p / shape[1]).exp_m1() } else { *p / most };
+            *p = match self.form {
+                Form::Steady => *p / most,
+                Form::Saturating => -(-*p / shape[1]).exp_m1(),
+                Form::Hyperbolic => *p / (shape[1] + *p),
+            };
         }
         Some(Factors::losing(shape[0], &progress, self.whole))
     }
