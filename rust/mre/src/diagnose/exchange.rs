@@ -29,11 +29,7 @@ impl<'a> Search<'_, 'a> {
             });
             let data = self.data(&best.noise);
             let without = self.drop(&best, self.given() + place);
-            let tried = others
-                .collect::<Vec<_>>()
-                .into_par_iter()
-                .filter_map(|e| self.best_start(&without, data, e))
-                .collect::<Vec<_>>();
+            let tried = self.best_starts(&without, data, &others.collect::<Vec<_>>());
             let better = self.better(&best.noise, &best.itself(), tried);
             if let Some(better) = self.monitor.whole(better)? {
                 // The law comes last, and so does its p-value; the next effect takes its place.
@@ -137,15 +133,24 @@ impl<'a> Search<'_, 'a> {
         Some(named)
     }
 
-    /// Joint fit of a model with a law, from the law's two strongest starts.
-    fn best_start(
+    /// Joint fits of a model with each of some laws, from the law's strongest start.
+    fn best_starts(
         &self,
         without: &Candidate<'a>,
         data: Data,
-        effect: &'static dyn Effect,
-    ) -> Option<Candidate<'a>> {
-        let null = Null::new(&without.assembly, data, &without.fitted.unit)?;
-        let score = null.score(effect, self.settings.seed)?;
-        Some(joint(&without.assembly, data, &without.fitted.unit, effect, &null.held(&score).shape))
+        laws: &[&'static dyn Effect],
+    ) -> Vec<Candidate<'a>> {
+        let unit = &without.fitted.unit;
+        let Some(null) = Null::new(&without.assembly, data, unit) else { return Vec::new() };
+        let shape = |effect: &&'static dyn Effect| {
+            let score = null.score(*effect, self.settings.seed)?;
+            Some((*effect, null.held(&score).shape))
+        };
+        let started: Vec<(&'static dyn Effect, Vec<f64>)> = laws.par_iter().filter_map(shape).collect();
+        // Its samples are many, and not needed any more.
+        drop(null);
+        let fitted =
+            started.into_par_iter().map(|(e, start)| joint(&without.assembly, data, unit, e, &start));
+        fitted.collect()
     }
 }

@@ -15,6 +15,9 @@ use crate::assembly::Assembly;
 use crate::effect::Effect;
 use crate::kernel::filter::dot;
 
+/// Starts whose columns are made at a time: as many as a kernel has lanes.
+const TOGETHER: usize = 8;
+
 /// What the score test of one law found.
 #[derive(Clone)]
 pub struct Score {
@@ -120,7 +123,9 @@ impl Null<'_> {
         let all: Vec<Vec<f64>> =
             starts.iter().map(|start| shapes.iter().chain(start).copied().collect()).collect();
         let jobs: Vec<(usize, &[f64])> = all.iter().map(|shapes| (r, shapes.as_slice())).collect();
-        for (s, columns) in joint.columns_of(&jobs).into_iter().enumerate() {
+        // A few at a time: most of their columns are those of the model, and are let go.
+        let columns = jobs.chunks(TOGETHER).flat_map(|few| joint.columns_of(few));
+        for (s, columns) in columns.enumerate() {
             if effect.coefficients().is_empty() {
                 let mut change = columns.measured(&self.point.fitted.coefficients);
                 for (c, f) in change.iter_mut().zip(&self.point.recordings[r].force) {
