@@ -175,7 +175,8 @@ def unknown(found: Mapping[str, Any], nearest: Sequence[str]) -> str:
 
 def _uneven(found: Mapping[str, Any]) -> str:
     """Say that what looks like noise follows the motion, where it plainly does."""
-    if found.get("p_even", 1.0) > PLAINLY_UNEVEN:
+    p_even = found.get("p_even")
+    if p_even is None or p_even > PLAINLY_UNEVEN:
         return ""
     where = "at some displacements, speeds or times than at others"
     return f" What looks like noise is larger {where}, as noise is not."

@@ -97,7 +97,7 @@ fn alone<'a>(
     let surpassed = effects > 0 && !drifts && of_all.improvement > improvement + CLEAR;
     let wandering = last.as_ref().map_or(Mismatch::NONE, Null::wandering);
     let odd = last.as_ref().map_or(Mismatch::NONE, Null::odd_recording);
-    let uneven = last.as_ref().map_or(Uneven::NONE, Null::uneven);
+    let uneven = last.as_ref().and_then(Null::uneven).unwrap_or(Uneven::NONE);
     let tests = Tests {
         first,
         rest,

@@ -78,13 +78,13 @@ impl Null<'_> {
     /// Test whether the size of what is left follows the motion.
     ///
     /// A noise that a mismatch hides is not known, and of clipped samples nothing is left: there is no test.
-    pub(super) fn uneven(&self) -> Uneven {
+    pub(super) fn uneven(&self) -> Option<Uneven> {
         if self.noise().hidden() || self.assembly().clips(&self.shapes()) {
-            return Uneven::NONE;
+            return None;
         }
         let tried = TOGETHER.iter().filter_map(|together| self.followed(*together));
         let best = tried.reduce(|best, next| if next.p_value < best.p_value { next } else { best });
-        best.map_or(Uneven::NONE, |best| Uneven {
+        best.map(|best| Uneven {
             p_value: (best.p_value * TOGETHER.len() as f64).min(1.0),
             swallowed: self.swallowed(&best),
         })

@@ -50,8 +50,9 @@ pub struct Unknown {
     pub dissipative: f64,
     /// Rms of the map's force over the recordings, N.
     pub rms: f64,
-    /// Chance under the null that the size of what is left follows motion and time as much; one where that cannot be told.
-    pub p_even: f64,
+    /// Chance under the null that the size of what is left follows motion and time as much; `None` where that cannot be
+    /// told.
+    pub p_even: Option<f64>,
 }
 
 /// Describe what is left beside a fitted model.
@@ -68,7 +69,7 @@ pub(super) fn describe(null: &Null) -> Unknown {
     depends_on.retain(|d| d.share > 0.0 && d.share >= WORTH_NAMING * strongest);
     depends_on.truncate(MOST);
     let (map, odd, dissipative, rms) = surface(null);
-    Unknown { depends_on, map, odd, dissipative, rms, p_even: null.uneven().p_value }
+    Unknown { depends_on, map, odd, dissipative, rms, p_even: null.uneven().map(|u| u.p_value) }
 }
 
 /// Hats on a grid of displacement and velocity that bear on a state, with their values.
