@@ -32,13 +32,6 @@ def saturated(x: Array, v: Array, h: float) -> Array:
     return shown
 
 
-def quasi_linear(x: Array, v: Array, h: float) -> Array:
-    """A sixth of the elastic force relaxes, the part that stiffens too."""
-    rate = (8 + 3 * np.cosh(0.3 * x)) * v
-    force: Array = 0.4 * v + 8 * x + 10 * np.sinh(0.3 * x) + 0.3 * _relaxing(rate, h, 0.12)
-    return force
-
-
 def box(x: Array, v: Array, h: float) -> Array:
     """A stiffness relaxes alike over the decades from 0.5 s on."""
     slow = sum(_relaxing(v, h, tau) for tau in np.geomspace(0.5, 500, 40)) / 40
@@ -71,7 +64,6 @@ def campaign(force: Callable[[Array, Array, float], Array]) -> list[Recording]:
     ("force", "effect", "law", "form"),
     [
         (saturated, "force_clipping", "gradual", "exact"),
-        (quasi_linear, "maxwell_relaxation", "one branch, stiffening", "approximate"),  # not by a cubic
         (box, "creep", "box spectrum", "exact"),
         (worn, "cyclic_degradation", "strokes, ", "exact"),
     ],

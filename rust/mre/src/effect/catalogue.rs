@@ -38,7 +38,6 @@ use super::work::Work;
 pub const CATALOGUE: &[&dyn Effect] = &[
     &Maxwell::One,
     &Maxwell::Two,
-    &Maxwell::Stiffening,
     &WithCurrent {
         law: &Maxwell::One,
         name: "one branch, with the current",
@@ -275,7 +274,6 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &FilterLag::Displacement,
     &FilterLag::Butterworth,
     &Creep::Logarithmic,
-    &Creep::Stiffening,
     &Creep::Box,
     &Creep::Slow,
     &Creep::Ageing,

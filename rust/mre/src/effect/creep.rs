@@ -3,7 +3,6 @@
 //! | symbol | meaning | unit | range |
 //! |---|---|---|---|
 //! | `k_c` | stiffness that relaxes, a decade or in all | N/mm | >= 0 |
-//! | `k_s` | what that stiffness grows by, up to the largest displacement `x_m` | N/mm | any |
 //! | `t_0` | time after which it begins | s | two samples to the longest recording |
 //! | `tau_c` | relaxation time | s | 1/3 to 30 times the longest recording |
 //! | s | share of the stiffness lost a decade | - | 0 to 0.4 |
@@ -11,13 +10,13 @@
 //! The logarithmic kernel falls with `log10(1 + t/t_0)`: a spectrum of relaxation times that is flat above `t_0` and fades
 //! below it as `exp(-t_0/tau)`, here up to a hundred times the longest recording: the same for all, so that none is
 //! stiffer.
-//! Its spectrum may also begin at once (a box spectrum), and a stiffening force may relax as a whole.
+//! Its spectrum may also begin at once (a box spectrum).
 //! Reference: Findley, Lai and Onaran, Creep and Relaxation of Nonlinear Viscoelastic Materials, 1976; Fung,
 //! Biomechanics: Mechanical Properties of Living Tissues, 1981.
 //! Known limit: with a mean displacement and in one recording it cannot be told from drift.
 
-use super::maxwell::{branch, branches, cubic_rate};
-use super::{About, Effect, Factors, Scene, Sizes, order_within, orders, positive, signed, within};
+use super::maxwell::{branch, branches};
+use super::{About, Effect, Factors, Scene, Sizes, order_within, orders, positive, within};
 use crate::parameter::Parameter;
 
 /// Relaxation times a decade in the spectrum.
@@ -28,8 +27,6 @@ const A_DECADE: f64 = 2.0;
 pub(super) enum Creep {
     /// The memory of every motion fades with the logarithm of its age.
     Logarithmic,
-    /// The same of a cubic spring.
-    Stiffening,
     /// A spectrum that begins at once.
     Box,
     /// One very slow branch.
@@ -45,18 +42,13 @@ const SHORTEST: f64 = 0.2;
 /// The longest in durations of the longest recording: beyond, a branch is a spring.
 const LONGEST: f64 = 100.0;
 
-/// Relaxation from rest of one unit of stiffness a decade: of a rate, from the shortest time on, with a spectrum.
-fn fading(scene: &Scene, rate: &[f64], shortest: f64, spectrum: impl Fn(f64) -> f64) -> Vec<f64> {
+/// Relaxation from rest of one unit of stiffness a decade, from the shortest time on, with a spectrum.
+fn fading(scene: &Scene, shortest: f64, spectrum: impl Fn(f64) -> f64) -> Vec<f64> {
     let decades = (LONGEST * scene.sizes.duration / shortest).log10().max(1.0);
     let count = (A_DECADE * decades).ceil() as usize + 1;
     let weight = decades / (count - 1) as f64;
     let taus = orders(shortest, shortest * 10.0_f64.powf(decades), count);
-    branches(scene, rate, taus.into_iter().map(|tau| (tau, weight * spectrum(tau))))
-}
-
-/// The logarithmic kernel.
-fn logarithmic(scene: &Scene, rate: &[f64], t_0: f64) -> Vec<f64> {
-    fading(scene, rate, SHORTEST * t_0, |tau| (-t_0 / tau).exp())
+    branches(scene, taus.into_iter().map(|tau| (tau, weight * spectrum(tau))))
 }
 
 impl Creep {
@@ -77,12 +69,6 @@ impl Effect for Creep {
         };
         match self {
             Self::Logarithmic => logarithmic,
-            Self::Stiffening => About {
-                law: "logarithmic, stiffening",
-                equation: "F_c = sum_i exp(-t_0/tau_i) z_i, dz_i/dt = (k_c + 3 k_s (x/x_m)^2) v - z_i/tau_i",
-                reference: "Fung, Biomechanics, 1981",
-                ..logarithmic
-            },
             Self::Box => About {
                 law: "box spectrum",
                 equation: "F_c = sum_i z_i, dz_i/dt = k_c v - z_i/tau_i, tau_i evenly over the decades above t_0",
@@ -111,17 +97,13 @@ impl Effect for Creep {
     }
 
     fn coefficients(&self) -> Vec<Parameter> {
-        match self {
-            Self::Ageing | Self::AgeingWhole => Vec::new(),
-            Self::Stiffening => vec![positive("k_c", "N/mm"), signed("k_s", "N/mm")],
-            _ => vec![positive("k_c", "N/mm")],
-        }
+        if self.ages() { Vec::new() } else { vec![positive("k_c", "N/mm")] }
     }
 
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
         let t_0 = order_within("t_0", "s", 2.0 * sizes.step, sizes.duration);
         match self {
-            Self::Logarithmic | Self::Stiffening | Self::Box => vec![t_0],
+            Self::Logarithmic | Self::Box => vec![t_0],
             Self::Slow => {
                 vec![order_within("tau_c", "s", sizes.duration / 3.0, 30.0 * sizes.duration)]
             }
@@ -133,7 +115,7 @@ impl Effect for Creep {
         let early = (10.0 * sizes.step).min(0.1 * sizes.duration).max(2.0 * sizes.step);
         let t_0 = orders(early, 0.3 * sizes.duration, 3);
         match self {
-            Self::Logarithmic | Self::Stiffening | Self::Box => t_0.into_iter().map(|t| vec![t]).collect(),
+            Self::Logarithmic | Self::Box => t_0.into_iter().map(|t| vec![t]).collect(),
             Self::Slow => vec![vec![0.5 * sizes.duration], vec![2.0 * sizes.duration]],
             Self::Ageing | Self::AgeingWhole => t_0.into_iter().map(|t| vec![0.05, t]).collect(),
         }
@@ -141,12 +123,10 @@ impl Effect for Creep {
 
     fn columns(&self, scene: &Scene, shape: &[f64]) -> Vec<Vec<f64>> {
         match self {
-            Self::Logarithmic => vec![logarithmic(scene, scene.velocity, shape[0])],
-            Self::Stiffening => vec![
-                logarithmic(scene, scene.velocity, shape[0]),
-                logarithmic(scene, &cubic_rate(scene), shape[0]),
-            ],
-            Self::Box => vec![fading(scene, scene.velocity, shape[0], |_| 1.0)],
+            Self::Logarithmic => {
+                vec![fading(scene, SHORTEST * shape[0], |tau| (-shape[0] / tau).exp())]
+            }
+            Self::Box => vec![fading(scene, shape[0], |_| 1.0)],
             Self::Slow => vec![branch(scene, shape[0])],
             Self::Ageing | Self::AgeingWhole => Vec::new(),
         }

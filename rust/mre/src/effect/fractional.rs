@@ -47,7 +47,7 @@ fn relaxation(
     let (spring, dashpot) = beyond(rate(-0.5), rate(count as f64 - 0.5));
     let x0 = scene.displacement[0];
     let rates = (0..count).map(|j| rate(j as f64));
-    let relaxed = branches(scene, scene.velocity, rates.map(|rate| (1.0 / rate, spacing * weight(rate))));
+    let relaxed = branches(scene, rates.map(|rate| (1.0 / rate, spacing * weight(rate))));
     let motion = scene.displacement.iter().zip(scene.velocity);
     motion.zip(relaxed).map(|((x, v), z)| spring * (x - x0) + dashpot * v + z).collect()
 }

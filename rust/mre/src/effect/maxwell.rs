@@ -3,53 +3,39 @@
 //! | symbol | meaning | unit | range |
 //! |---|---|---|---|
 //! | `k_m`, `k_1`, `k_2` | stiffness of a branch | N/mm | >= 0 |
-//! | `k_s` | what the stiffness of a branch grows by, up to the largest displacement `x_m` | N/mm | any |
 //! | tau, `tau_1`, `tau_2` | relaxation time of a branch | s | two samples to a third of the longest recording |
 //!
 //! Integrated exactly for a velocity that is linear between samples.
-//! Reference: Ferry, Viscoelastic Properties of Polymers, 1980; a force that stiffens and relaxes as a whole: Fung,
-//! Biomechanics: Mechanical Properties of Living Tissues, 1981 (quasi-linear).
+//! Reference: Ferry, Viscoelastic Properties of Polymers, 1980.
 //! Known limit: at one steady frequency a branch is part of k0 and c0.
 
 use super::operators::lag;
-use super::{About, Effect, Scene, Sizes, order_within, orders, positive, signed};
+use super::{About, Effect, Scene, Sizes, order_within, orders, positive};
 use crate::kernel::relaxation::lags;
 use crate::parameter::Parameter;
 
-/// One branch or two, or one whose spring stiffens.
+/// One branch or two.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Maxwell {
     /// One relaxation time.
     One,
     /// Two relaxation times.
     Two,
-    /// One relaxation time of a cubic spring.
-    Stiffening,
 }
 
 /// `z' = v - z / tau` from rest.
 pub(super) fn branch(scene: &Scene, tau: f64) -> Vec<f64> {
-    relaxing(scene.time, scene.velocity, tau)
-}
-
-fn relaxing(time: &[f64], rate: &[f64], tau: f64) -> Vec<f64> {
-    let mut z = lag(time, rate, tau, 0.0);
+    let mut z = lag(scene.time, scene.velocity, tau, 0.0);
     for z in &mut z {
         *z *= tau;
     }
     z
 }
 
-/// `sum w z` of `z' = r - z / tau` from rest for pairs `(tau, w)`, of a rate r.
-pub(super) fn branches(scene: &Scene, rate: &[f64], of: impl Iterator<Item = (f64, f64)>) -> Vec<f64> {
+/// `sum w z` of `z' = v - z / tau` from rest for pairs `(tau, w)`.
+pub(super) fn branches(scene: &Scene, of: impl Iterator<Item = (f64, f64)>) -> Vec<f64> {
     let of: Vec<(f64, f64)> = of.map(|(tau, w)| (tau, w * tau)).collect();
-    lags(scene.time, rate, &of)
-}
-
-/// Rate of `x^3 / x_m^2`, mm/s.
-pub(super) fn cubic_rate(scene: &Scene) -> Vec<f64> {
-    let share = |x: &f64| 3.0 * (x / scene.sizes.displacement).powi(2);
-    scene.displacement.iter().zip(scene.velocity).map(|(x, v)| share(x) * v).collect()
+    lags(scene.time, scene.velocity, &of)
 }
 
 impl Effect for Maxwell {
@@ -70,13 +56,6 @@ impl Effect for Maxwell {
                 equation: "dF_i/dt = k_i v - F_i/tau_i, i = 1, 2",
                 ..one
             },
-            Self::Stiffening => About {
-                law: "one branch, stiffening",
-                plain: "part of a stiffening force relaxes with time",
-                equation: "dF_m/dt = (k_m + 3 k_s (x/x_m)^2) v - F_m/tau",
-                reference: "Fung, Biomechanics, 1981",
-                ..one
-            },
         }
     }
 
@@ -84,14 +63,13 @@ impl Effect for Maxwell {
         match self {
             Self::One => vec![positive("k_m", "N/mm")],
             Self::Two => vec![positive("k_1", "N/mm"), positive("k_2", "N/mm")],
-            Self::Stiffening => vec![positive("k_m", "N/mm"), signed("k_s", "N/mm")],
         }
     }
 
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
         let tau = |name| order_within(name, "s", 2.0 * sizes.step, sizes.duration / 3.0);
         match self {
-            Self::One | Self::Stiffening => vec![tau("tau")],
+            Self::One => vec![tau("tau")],
             Self::Two => vec![tau("tau_1"), tau("tau_2")],
         }
     }
@@ -99,7 +77,7 @@ impl Effect for Maxwell {
     fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
         let taus = |count| orders(2.0 * sizes.step, sizes.duration / 3.0, count);
         match self {
-            Self::One | Self::Stiffening => taus(9).into_iter().map(|tau| vec![tau]).collect(),
+            Self::One => taus(9).into_iter().map(|tau| vec![tau]).collect(),
             Self::Two => {
                 let taus = taus(5);
                 let pairs = (0..taus.len()).flat_map(|j| (0..j).map(move |i| (i, j)));
@@ -109,10 +87,6 @@ impl Effect for Maxwell {
     }
 
     fn columns(&self, scene: &Scene, shape: &[f64]) -> Vec<Vec<f64>> {
-        let mut found: Vec<Vec<f64>> = shape.iter().map(|tau| branch(scene, *tau)).collect();
-        if *self == Self::Stiffening {
-            found.push(relaxing(scene.time, &cubic_rate(scene), shape[0]));
-        }
-        found
+        shape.iter().map(|tau| branch(scene, *tau)).collect()
     }
 }
