@@ -84,6 +84,9 @@ def test_rows_are_what_identify_finds(five: Path, tmp_path: Path) -> None:
         assert model.levels[0].parameters == found.model.levels[0].parameters
     assert_frame_equal(mre_core.read_results(tmp_path / "out"), table)
     assert_frame_equal(mre_core.read_results(tmp_path / "out" / "results.parquet"), table)
+    if sys.platform == "linux":  # where a name need not be text
+        (tmp_path / "out").rename(renamed := tmp_path / os.fsdecode(b"\xff"))
+        assert_frame_equal(mre_core.read_results(renamed), table)
 
 
 def test_campaigns_and_their_currents(tmp_path: Path) -> None:
