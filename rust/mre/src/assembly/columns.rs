@@ -25,6 +25,12 @@ pub struct Columns {
 }
 
 impl Columns {
+    /// More of them, whose coefficients stand side by side from a place on.
+    pub(super) fn add(&mut self, first: usize, columns: Vec<Vec<f64>>) {
+        self.places.extend(first..first + columns.len());
+        self.columns.extend(columns);
+    }
+
     /// Their sum with coefficients, N, before clipping.
     pub fn force(&self, coefficients: &[f64]) -> Vec<f64> {
         let length = |columns: Option<&Vec<f64>>| columns.map_or(0, Vec::len);

@@ -9,10 +9,7 @@ impl Assembly<'_> {
     pub(super) fn effect_columns(&self, r: usize, scene: &Scene, shape_of: &[&[f64]], found: &mut Columns) {
         for (effect, shape, first) in self.placed(shape_of) {
             if !effect.of_the_measurement() {
-                for (k, column) in self.own_columns(effect, shape, r, scene).into_iter().enumerate() {
-                    found.places.push(first + k);
-                    found.columns.push(column);
-                }
+                found.add(first, self.own_columns(effect, shape, r, scene));
             }
         }
         for (effect, shape) in self.effects.iter().zip(shape_of) {
@@ -40,11 +37,7 @@ impl Assembly<'_> {
         for (effect, shape, first) in self.placed(&shape_of) {
             if effect.of_the_measurement() {
                 let columns = self.own_columns(effect, shape, r, &scene);
-                let first = first + r * columns.len();
-                for (k, column) in columns.into_iter().enumerate() {
-                    found.places.push(first + k);
-                    found.columns.push(column);
-                }
+                found.add(first + r * columns.len(), columns);
             }
         }
     }

@@ -64,12 +64,12 @@ impl Effect for Clipping {
     }
 
     fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
-        let at = |shares: &[f64]| shares.iter().map(|share| vec![share * sizes.force]).collect();
+        let levels = [0.5, 0.6, 0.7, 0.8, 0.88, 0.94, 0.98];
         match self {
             Self::Gradual => {
                 [[0.9, 12.0], [1.05, 5.0], [1.5, 2.5]].map(|[l, p]| vec![l * sizes.force, p]).to_vec()
             }
-            _ => at(&[0.5, 0.6, 0.7, 0.8, 0.88, 0.94, 0.98]),
+            _ => levels.map(|share| vec![share * sizes.force]).to_vec(),
         }
     }
 

@@ -16,12 +16,19 @@ use super::work::Work;
 use super::{About, Effect, Factors, Scene, Sizes, order_within, within};
 use crate::parameter::Parameter;
 
-/// Name and equation of a law on the stiffness and on the whole force.
-macro_rules! both {
-    ($stiffness:literal, $whole:literal, $share:literal, $of:literal) => {
+/// Names and equations by [`Form`], each on the stiffness and on the whole force.
+macro_rules! forms {
+    ($name:literal, $p:literal, $of:literal) => {
         [
-            ($stiffness, concat!("k -> k (", $share, "), ", $of)),
-            ($whole, concat!("F -> F (", $share, "), ", $of)),
+            forms!(@ $name, concat!("1 - s ", $p, "/", $p, "_max"), $p, $of),
+            forms!(@ concat!($name, ", saturating"), concat!("1 - s (1 - exp(-", $p, "/", $p, "_c))"), $p, $of),
+            forms!(@ concat!($name, ", hyperbolic"), concat!("1 - s ", $p, "/(", $p, "_c + ", $p, ")"), $p, $of),
+        ]
+    };
+    (@ $law:expr, $share:expr, $p:literal, $of:literal) => {
+        [
+            (concat!($law, ", stiffness"), concat!("k -> k (", $share, "), ", $p, " ", $of)),
+            (concat!($law, ", whole force"), concat!("F -> F (", $share, "), ", $p, " ", $of)),
         ]
     };
 }
@@ -83,100 +90,24 @@ impl Degradation {
         }
     }
 
-    /// Name and equation on the stiffness and on the whole force.
-    fn words(self) -> [(&'static str, &'static str); 2] {
-        match (self.by, self.form) {
-            (Progress::Path, Form::Steady) => {
-                both!("path, stiffness", "path, whole force", "1 - s P/P_max", "P the path travelled")
+    /// Name and equation.
+    fn words(self) -> (&'static str, &'static str) {
+        let by_form = match self.by {
+            Progress::Path => forms!("path", "P", "the path travelled"),
+            Progress::Strokes => forms!("strokes", "E", "the integral of |x v|"),
+            Progress::Energy(Work::Passed) => forms!("energy", "E", "the integral of |F v|"),
+            Progress::Energy(Work::Net) => {
+                forms!("dissipated energy", "E", "the largest integral of F v so far")
             }
-            (Progress::Path, Form::Saturating) => both!(
-                "path, saturating, stiffness",
-                "path, saturating, whole force",
-                "1 - s (1 - exp(-P/P_c))",
-                "P the path travelled"
-            ),
-            (Progress::Energy(Work::Passed), Form::Steady) => {
-                both!("energy, stiffness", "energy, whole force", "1 - s E/E_max", "E the integral of |F v|")
-            }
-            (Progress::Energy(Work::Passed), Form::Saturating) => both!(
-                "energy, saturating, stiffness",
-                "energy, saturating, whole force",
-                "1 - s (1 - exp(-E/E_c))",
-                "E the integral of |F v|"
-            ),
-            (Progress::Energy(Work::Net), Form::Steady) => both!(
-                "dissipated energy, stiffness",
-                "dissipated energy, whole force",
-                "1 - s E/E_max",
-                "E the largest integral of F v so far"
-            ),
-            (Progress::Energy(Work::Net), Form::Saturating) => both!(
-                "dissipated energy, saturating, stiffness",
-                "dissipated energy, saturating, whole force",
-                "1 - s (1 - exp(-E/E_c))",
-                "E the largest integral of F v so far"
-            ),
-            (Progress::Energy(Work::Viscous), Form::Steady) => both!(
-                "viscous heat, stiffness",
-                "viscous heat, whole force",
-                "1 - s E/E_max",
-                "E the integral of v^2"
-            ),
-            (Progress::Energy(Work::Viscous), Form::Saturating) => both!(
-                "viscous heat, saturating, stiffness",
-                "viscous heat, saturating, whole force",
-                "1 - s (1 - exp(-E/E_c))",
-                "E the integral of v^2"
-            ),
-            (Progress::Strokes, Form::Steady) => both!(
-                "strokes, stiffness",
-                "strokes, whole force",
-                "1 - s E/E_max",
-                "E the integral of |x v|"
-            ),
-            (Progress::Strokes, Form::Saturating) => both!(
-                "strokes, saturating, stiffness",
-                "strokes, saturating, whole force",
-                "1 - s (1 - exp(-E/E_c))",
-                "E the integral of |x v|"
-            ),
-            (Progress::Strokes, Form::Hyperbolic) => both!(
-                "strokes, hyperbolic, stiffness",
-                "strokes, hyperbolic, whole force",
-                "1 - s E/(E_c + E)",
-                "E the integral of |x v|"
-            ),
-            (Progress::Path, Form::Hyperbolic) => both!(
-                "path, hyperbolic, stiffness",
-                "path, hyperbolic, whole force",
-                "1 - s P/(P_c + P)",
-                "P the path travelled"
-            ),
-            (Progress::Energy(Work::Passed), Form::Hyperbolic) => both!(
-                "energy, hyperbolic, stiffness",
-                "energy, hyperbolic, whole force",
-                "1 - s E/(E_c + E)",
-                "E the integral of |F v|"
-            ),
-            (Progress::Energy(Work::Net), Form::Hyperbolic) => both!(
-                "dissipated energy, hyperbolic, stiffness",
-                "dissipated energy, hyperbolic, whole force",
-                "1 - s E/(E_c + E)",
-                "E the largest integral of F v so far"
-            ),
-            (Progress::Energy(Work::Viscous), Form::Hyperbolic) => both!(
-                "viscous heat, hyperbolic, stiffness",
-                "viscous heat, hyperbolic, whole force",
-                "1 - s E/(E_c + E)",
-                "E the integral of v^2"
-            ),
-        }
+            Progress::Energy(Work::Viscous) => forms!("viscous heat", "E", "the integral of v^2"),
+        };
+        by_form[self.form as usize][usize::from(self.whole)]
     }
 }
 
 impl Effect for Degradation {
     fn about(&self) -> About {
-        let (law, equation) = self.words()[usize::from(self.whole)];
+        let (law, equation) = self.words();
         About {
             effect: "cyclic_degradation",
             law,
