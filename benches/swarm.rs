@@ -6,7 +6,9 @@ use std::sync::atomic::AtomicBool;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use mre::fitness::Problem;
-use mre::swarm::{Budget, Crowd, FishSettings, FishSwarm, Neighbourhood, Schedule, Search, awake, run};
+use mre::swarm::{
+    Budget, Crowd, FishSettings, FishSwarm, Neighbourhood, OfProblem, Schedule, Search, awake, run,
+};
 use mre_bench::problem;
 
 fn mafsa(problem: &Problem, iterations: usize) {
@@ -25,8 +27,8 @@ fn mafsa(problem: &Problem, iterations: usize) {
     };
     let Ok(mut swarm) = FishSwarm::new(settings, d, 1, None) else { return };
     let never = AtomicBool::new(false);
-    let mut evaluate = |unit: &[f64], costs: &mut [f64]| problem.fitness_in_box(unit, costs, &never);
-    run(&mut swarm, &mut evaluate, d, &Budget::default(), &mut |_| true);
+    let mut fitness = OfProblem { problem, cancel: &never };
+    run(&mut swarm, &mut fitness, d, &Budget::default(), &mut |_| true);
 }
 
 /// A model's swarm of some iterations on one and two threads.

@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::sync::{Mutex, MutexGuard};
 
 use mre::parameter::Bounds;
-use mre::swarm::{FishSwarm, ParticleSwarm, Stream, Swarm as Core, awake, run};
+use mre::swarm::{FishSwarm, OfProblem, ParticleSwarm, Stream, Swarm as Core, awake, run};
 use numpy::{PyArray1, PyArray2};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
@@ -108,7 +108,7 @@ impl Swarm {
     fn tell(&self, costs: &Bound<'_, PyAny>) -> PyResult<()> {
         let costs = vector("costs", costs)?;
         let mut state = self.lock()?;
-        let wanted = state.ask().len() / self.bounds.len();
+        let wanted = state.asked();
         if costs.len() != wanted || wanted == 0 {
             return Err(setting(
                 "number of costs",
@@ -169,10 +169,9 @@ impl Swarm {
         let mut state = self.lock()?;
         let swarm: &mut dyn Core = &mut **state;
         let (reason, ended) = in_pool(py, threads, callback.as_ref(), raise, |link| {
-            let mut evaluate =
-                |unit: &[f64], costs: &mut [f64]| problem.inner.fitness_in_box(unit, costs, link.cancel());
+            let mut fitness = OfProblem { problem: &problem.inner, cancel: link.cancel() };
             let mut monitor = link;
-            awake(|| run(swarm, &mut evaluate, d, &budget, &mut monitor))
+            awake(|| run(swarm, &mut fitness, d, &budget, &mut monitor))
         })?;
         Ok(name_of(reason, ended))
     }

@@ -12,8 +12,8 @@ use std::sync::atomic::AtomicBool;
 use common::{Trial, problem, with_threads};
 use mre::fitness::{Problem, Weights};
 use mre::swarm::{
-    Budget, Crowd, FishSettings, FishSwarm, Neighbourhood, ParticleSwarm, PsoSettings, Schedule, Search,
-    Swarm, run,
+    Budget, Crowd, FishSettings, FishSwarm, Neighbourhood, OfProblem, ParticleSwarm, PsoSettings, Schedule,
+    Search, Swarm, run,
 };
 
 struct Counting;
@@ -76,8 +76,8 @@ fn allocations(problem: &Problem, make: impl Fn() -> Box<dyn Swarm> + Send) -> u
     with_threads(1, move || {
         let before = ALLOCATIONS.get();
         let mut swarm = make();
-        let mut evaluate = |unit: &[f64], costs: &mut [f64]| problem.fitness_in_box(unit, costs, &never);
-        run(swarm.as_mut(), &mut evaluate, d, &Budget::default(), &mut |_| true);
+        let mut fitness = OfProblem { problem, cancel: &never };
+        run(swarm.as_mut(), &mut fitness, d, &Budget::default(), &mut |_| true);
         ALLOCATIONS.get() - before
     })
 }

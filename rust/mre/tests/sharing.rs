@@ -8,7 +8,8 @@ use std::sync::atomic::AtomicBool;
 use common::{Trial, fitness, problem, with_threads};
 use mre::fitness::{Problem, Weights};
 use mre::swarm::{
-    Budget, Crowd, FishSettings, FishSwarm, History, Neighbourhood, Schedule, Search, Stream, Swarm, run,
+    Budget, Crowd, FishSettings, FishSwarm, Fitness, History, Neighbourhood, OfProblem, Schedule, Search,
+    Stream, Swarm, run,
 };
 
 fn example(model: &str) -> Problem {
@@ -44,37 +45,41 @@ fn points_of_the_box_cost_what_their_parameters_cost() {
     }
 }
 
+fn swarm(search: Search) -> FishSwarm {
+    let settings = FishSettings {
+        fish: 50,
+        iterations: 20,
+        try_number: 50,
+        delta: 0.6,
+        visual: 0.5,
+        step: 0.25,
+        schedule: Schedule::FromStart { visual_min: 0.002, step_min: 0.0003, p: 5 },
+        neighbourhood: Neighbourhood::Swarm,
+        crowd: Crowd::Literal,
+        search,
+    };
+    FishSwarm::new(settings, 5, 1, None).unwrap()
+}
+
+/// Where a swarm has come to.
+fn swim(mut swarm: FishSwarm, fitness: &mut dyn Fitness) -> (Vec<f64>, History) {
+    run(&mut swarm, fitness, 5, &Budget::default(), &mut |_| true);
+    (swarm.bulletin().position.clone(), swarm.history().clone())
+}
+
 #[test]
 fn fish_swim_the_same_on_any_number_of_threads() {
     let problem = example("sinh");
-    let swim = |search, threads: usize| -> (Vec<f64>, History) {
-        let settings = FishSettings {
-            fish: 50,
-            iterations: 20,
-            try_number: 50,
-            delta: 0.6,
-            visual: 0.5,
-            step: 0.25,
-            schedule: Schedule::FromStart { visual_min: 0.002, step_min: 0.0003, p: 5 },
-            neighbourhood: Neighbourhood::Swarm,
-            crowd: Crowd::Literal,
-            search,
-        };
-        let mut swarm = FishSwarm::new(settings, 5, 1, None).unwrap();
-        let never = AtomicBool::new(false);
-        let mut evaluate = |unit: &[f64], costs: &mut [f64]| problem.fitness_in_box(unit, costs, &never);
-        let mut all = || run(&mut swarm, &mut evaluate, 5, &Budget::default(), &mut |_| true);
-        if threads == 0 {
-            all(); // outside a pool
-        } else {
-            with_threads(threads, all);
-        }
-        (swarm.bulletin().position.clone(), swarm.history().clone())
-    };
+    let never = AtomicBool::new(false);
+    let mut one_after_the_other =
+        |rows: &[f64], costs: &mut [f64]| problem.fitness_in_box(rows, costs, &never);
     for search in [Search::Best, Search::Step] {
-        let one = swim(search, 1);
-        for threads in [0, 2, 3, 8] {
-            assert_eq!(swim(search, threads), one, "{search:?}, {threads} threads");
+        let drawn_first = swim(swarm(search), &mut one_after_the_other);
+        let mut fitness = OfProblem { problem: &problem, cancel: &never };
+        assert_eq!(swim(swarm(search), &mut fitness), drawn_first, "{search:?}, outside a pool");
+        for threads in [1, 2, 3, 8] {
+            let found = with_threads(threads, || swim(swarm(search), &mut fitness));
+            assert_eq!(found, drawn_first, "{search:?}, {threads} threads");
         }
     }
 }

@@ -18,6 +18,20 @@ impl Problem {
         }
     }
 
+    /// Candidates that keep a thread busy for longer than it takes to hand them over.
+    pub(crate) fn grain(&self) -> usize {
+        match &*self.kernel {
+            Kernel::Sinh(kernel) => kernel.grain(),
+            Kernel::BoucWen(_) => LANES,
+            Kernel::Terms => self.grain_of_terms(),
+        }
+    }
+
+    /// True where alike candidates are evaluated side by side, so that many at once take less time.
+    pub(crate) fn side_by_side(&self) -> bool {
+        matches!(&*self.kernel, Kernel::BoucWen(_))
+    }
+
     /// Fitness in N^2 of candidates, one row each, in parallel on the current thread pool where there are
     /// many.
     ///

@@ -1,5 +1,7 @@
 //! The bulletin board: the best point ever evaluated, and the history of an optimisation.
 
+use super::seen::Seen;
+
 /// The best point ever told, and how many were told.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bulletin {
@@ -20,19 +22,34 @@ impl Bulletin {
 
     /// Note points and their costs; the first of equals stays. NaN marks a point that was not evaluated.
     pub(super) fn note(&mut self, points: &[f64], costs: &[f64]) {
+        let seen = Seen::of(costs);
+        if self.evaluations == 0
+            && let Some(first) = costs.iter().position(|cost| !cost.is_nan())
+        {
+            self.stand(points, first);
+        }
+        self.evaluations += costs.len() as u64 - u64::from(seen.unknown);
+        self.failures += u64::from(seen.infinite);
+        self.better(points, &seen);
+    }
+
+    /// Note the points of one fish, of which those without a cost count as infinite.
+    pub(super) fn note_seen(&mut self, points: &[f64], seen: &Seen) {
+        self.evaluations += (points.len() / self.position.len()) as u64;
+        self.failures += u64::from(seen.infinite + seen.unknown);
+        self.better(points, seen);
+    }
+
+    fn better(&mut self, points: &[f64], seen: &Seen) {
+        if seen.least < self.cost {
+            self.stand(points, seen.at);
+            self.cost = seen.least;
+        }
+    }
+
+    fn stand(&mut self, points: &[f64], at: usize) {
         let d = self.position.len();
-        let none_before = self.evaluations == 0;
-        let mut best = if none_before { costs.iter().position(|cost| !cost.is_nan()) } else { None };
-        for (i, cost) in costs.iter().enumerate() {
-            self.evaluations += u64::from(!cost.is_nan());
-            self.failures += u64::from(cost.is_infinite());
-            if cost.is_finite() && *cost < self.cost {
-                (best, self.cost) = (Some(i), *cost);
-            }
-        }
-        if let Some(best) = best {
-            self.position.copy_from_slice(&points[best * d..(best + 1) * d]);
-        }
+        self.position.copy_from_slice(&points[at * d..(at + 1) * d]);
     }
 }
 

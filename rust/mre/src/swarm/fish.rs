@@ -6,7 +6,7 @@ use super::random::{around, towards};
 use super::search::{self, Outcome, Wait};
 use super::swarming::Centres;
 use super::view::{View, food};
-use super::{Behaviours, Bulletin, FishSettings, History, Stream, Swarm, follow};
+use super::{Behaviours, Bulletin, FishSettings, History, Shared, Stream, Swarm, follow};
 use crate::error::Result;
 
 /// What the rows asked for are.
@@ -60,7 +60,7 @@ impl FishSwarm {
         }
         let room = settings.fish * search::first_round(&settings).rows();
         let mut asked = Batch::with_room(settings.fish, room, dimension);
-        asked.rows.extend_from_slice(&positions);
+        asked.extend(&positions);
         Ok(Self {
             positions,
             costs: vec![f64::INFINITY; settings.fish],
@@ -71,7 +71,7 @@ impl FishSwarm {
             asked,
             told: Batch::with_room(settings.fish, room, dimension),
             centres: Centres::default(),
-            known: Vec::with_capacity(room),
+            known: Vec::with_capacity(settings.fish),
             bulletin: Bulletin::new(dimension),
             history: History::with_room(settings.iterations),
             behaviours: Behaviours::default(),
@@ -112,9 +112,9 @@ impl FishSwarm {
         let mean = self.mean_food();
         let mut centres = std::mem::take(&mut self.centres);
         centres.find(&self.view(), |fish| food(self.costs[fish]) > mean);
-        self.asked.rows.extend_from_slice(&centres.rows);
+        self.asked.extend(&centres.rows);
         self.centres = centres;
-        if self.asked.rows.is_empty() {
+        if self.asked.count() == 0 {
             self.choose(&[]);
         } else {
             self.stage = Stage::Centres;
@@ -144,7 +144,6 @@ impl FishSwarm {
                 asked.add(fish, search::first_round(&self.settings));
             }
         }
-        asked.draw_looks(&self.view(), &mut streams);
         (self.asked, self.streams) = (asked, streams);
         self.stage = Stage::Acts;
     }
@@ -155,21 +154,23 @@ impl FishSwarm {
 
     /// Fish that know their costs move, look again, or are done.
     fn act(&mut self, costs: &[f64]) {
+        self.asked.see(costs);
         std::mem::swap(&mut self.asked, &mut self.told);
         let (mut asked, mut streams) = (std::mem::take(&mut self.asked), std::mem::take(&mut self.streams));
         let told = std::mem::take(&mut self.told);
         asked.clear();
-        for (fish, wait, rows, costs) in told.with_costs(costs) {
+        for (fish, wait, rows, seen) in told.with_what_was_seen() {
+            self.bulletin.note_seen(rows, seen);
             let Wait::Looks { count, before } = wait else {
-                self.stand(fish, rows, costs[0]);
+                self.stand(fish, rows, seen.least);
                 continue;
             };
             let at = |look: usize| &rows[look * self.dimension..(look + 1) * self.dimension];
             let own = &self.positions[self.position(fish)];
-            match search::judge(costs, before, self.costs[fish], &self.settings) {
+            match search::judge(seen, before, count, self.costs[fish], &self.settings) {
                 Outcome::Jump(look) => {
                     self.behaviours.search += 1;
-                    self.stand(fish, at(look), costs[look]);
+                    self.stand(fish, at(look), seen.least);
                 }
                 Outcome::StepTowards(look) => {
                     self.behaviours.search += 1;
@@ -185,7 +186,6 @@ impl FishSwarm {
                 }
             }
         }
-        asked.draw_looks(&self.view(), &mut streams);
         (self.asked, self.told, self.streams) = (asked, told, streams);
         if self.asked.is_empty() {
             self.begin_iteration();
@@ -200,32 +200,47 @@ impl FishSwarm {
 }
 
 impl Swarm for FishSwarm {
-    fn ask(&self) -> &[f64] {
-        &self.asked.rows
+    fn asked(&self) -> usize {
+        self.asked.count()
+    }
+
+    fn ask(&mut self) -> &[f64] {
+        let (mut asked, mut streams) = (std::mem::take(&mut self.asked), std::mem::take(&mut self.streams));
+        asked.draw(&self.view(), &mut streams);
+        (self.asked, self.streams) = (asked, streams);
+        self.asked.rows()
+    }
+
+    fn ask_and_evaluate(&mut self, fitness: &dyn Shared, costs: &mut [f64]) {
+        let (mut asked, mut streams) = (std::mem::take(&mut self.asked), std::mem::take(&mut self.streams));
+        asked.evaluate(&self.view(), &mut streams, fitness, costs);
+        (self.asked, self.streams) = (asked, streams);
     }
 
     fn tell(&mut self, costs: &[f64]) {
+        if let Stage::Acts = self.stage {
+            self.act(costs);
+            return;
+        }
         let mut known = std::mem::take(&mut self.known);
         known.clear();
         known.extend(costs.iter().map(|c| if c.is_nan() { f64::INFINITY } else { *c }));
-        self.bulletin.note(&self.asked.rows, &known);
-        match self.stage {
-            Stage::Hatch => {
-                self.costs.copy_from_slice(&known);
-                self.begin_iteration();
-            }
-            Stage::Centres => self.choose(&known),
-            Stage::Acts => self.act(&known),
+        self.bulletin.note(self.asked.rows(), &known);
+        if let Stage::Hatch = self.stage {
+            self.costs.copy_from_slice(&known);
+            self.begin_iteration();
+        } else {
+            self.choose(&known);
         }
         self.known = known;
     }
 
     fn tell_some(&mut self, costs: &[f64]) {
-        self.bulletin.note(&self.asked.rows[..costs.len() * self.dimension], costs);
+        self.bulletin.note(&self.asked.rows()[..costs.len() * self.dimension], costs);
     }
 
     fn finished(&self) -> bool {
-        self.asked.rows.is_empty()
+        self.asked.count() == 0
     }
 
     fn bulletin(&self) -> &Bulletin {

@@ -9,12 +9,14 @@ mod awake;
 mod batch;
 mod bulletin;
 mod fish;
+mod fitness;
 mod follow;
 mod pso;
 mod random;
 mod run;
 mod schedule;
 mod search;
+mod seen;
 mod settings;
 mod swarming;
 mod view;
@@ -22,6 +24,7 @@ mod view;
 pub use awake::awake;
 pub use bulletin::{Bulletin, History};
 pub use fish::FishSwarm;
+pub use fitness::{Fitness, OfProblem, Shared};
 pub use pso::ParticleSwarm;
 pub use random::Stream;
 pub use run::{Budget, Monitor, Progress, StopReason, run};
@@ -43,8 +46,16 @@ pub struct Behaviours {
 
 /// A swarm that asks for costs and is told them.
 pub trait Swarm: Send {
+    /// Number of points whose costs are wanted.
+    fn asked(&self) -> usize;
+
     /// Points of the unit box whose costs are wanted, one row each; the same until told.
-    fn ask(&self) -> &[f64];
+    fn ask(&mut self) -> &[f64];
+
+    /// [`Swarm::ask`], and the costs of all the points, which are to be told next.
+    fn ask_and_evaluate(&mut self, fitness: &dyn Shared, costs: &mut [f64]) {
+        fitness.costs(self.ask(), costs);
+    }
 
     /// Costs of all points asked for, in their order; NaN counts as infinite.
     fn tell(&mut self, costs: &[f64]);

@@ -85,7 +85,11 @@ impl ParticleSwarm {
 }
 
 impl Swarm for ParticleSwarm {
-    fn ask(&self) -> &[f64] {
+    fn asked(&self) -> usize {
+        if self.finished { 0 } else { self.settings.particles }
+    }
+
+    fn ask(&mut self) -> &[f64] {
         if self.finished { &[] } else { &self.positions }
     }
 

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use super::Swarm;
+use super::{Fitness, Swarm};
 use crate::error::{Error, Result};
 
 /// When to stop before the last iteration.
@@ -78,35 +78,37 @@ impl<F: FnMut(Progress) -> bool> Monitor for F {
     }
 }
 
-/// Drive a swarm to its end or to the end of a budget. `evaluate` fills in the costs of points of the
-/// unit box, one row each; NaN for points that it left out because it was broken off.
+/// Drive a swarm to its end or to the end of a budget.
 pub fn run(
     swarm: &mut dyn Swarm,
-    evaluate: &mut dyn FnMut(&[f64], &mut [f64]),
+    fitness: &mut dyn Fitness,
     dimension: usize,
     budget: &Budget,
     monitor: &mut dyn Monitor,
 ) -> StopReason {
     let started = Instant::now();
-    let mut costs = Vec::new();
+    let mut room = Vec::new();
     while !swarm.finished() {
-        let rows = swarm.ask();
-        let wanted = rows.len() / dimension;
+        let wanted = swarm.asked();
         let left =
             budget.evaluations.map_or(u64::MAX, |most| most.saturating_sub(swarm.bulletin().evaluations));
         let count = wanted.min(usize::try_from(left).unwrap_or(usize::MAX));
         if count == 0 {
             return StopReason::Evaluations;
         }
-        costs.clear();
-        costs.reserve(count.next_power_of_two()); // generations differ a little in size
-        costs.resize(count, f64::INFINITY);
-        evaluate(&rows[..count * dimension], &mut costs);
+        if room.len() < count {
+            room.resize(count.next_power_of_two(), f64::NAN); // generations differ a little in size
+        }
+        let costs = &mut room[..count];
+        match fitness.shared() {
+            Some(shared) if count == wanted => swarm.ask_and_evaluate(shared, costs),
+            _ => fitness.costs(&swarm.ask()[..count * dimension], costs),
+        }
         let broken_off = monitor.broken_off();
         if broken_off || count < wanted {
-            swarm.tell_some(&costs);
+            swarm.tell_some(costs);
         } else {
-            swarm.tell(&costs);
+            swarm.tell(costs);
         }
         let go_on = monitor.go_on(progress(swarm));
         if broken_off || !go_on {

@@ -1,5 +1,6 @@
 //! Searching behaviour (section 3.1.1, and its modification in 3.2.2): looks within the visual range.
 
+use super::seen::Seen;
 use super::{FishSettings, Search};
 
 /// What a fish waits for.
@@ -47,20 +48,14 @@ pub(super) fn first_round(settings: &FishSettings) -> Wait {
     }
 }
 
-/// Judge looks by their costs against the cost where the fish stands.
-pub(super) fn judge(costs: &[f64], before: usize, own: f64, settings: &FishSettings) -> Outcome {
-    let (mut best, mut least) = (0, own);
-    for (look, cost) in costs.iter().enumerate() {
-        if *cost < least {
-            (best, least) = (look, *cost);
-        }
-    }
-    if least < own {
+/// Judge looks, of which so many were in vain `before`, against the cost where the fish stands.
+pub(super) fn judge(looks: &Seen, before: usize, count: usize, own: f64, settings: &FishSettings) -> Outcome {
+    if looks.least < own {
         match settings.search {
-            Search::Best => Outcome::Jump(best),
-            Search::Step => Outcome::StepTowards(best),
+            Search::Best => Outcome::Jump(looks.at),
+            Search::Step => Outcome::StepTowards(looks.at),
         }
-    } else if before + costs.len() < settings.try_number {
+    } else if before + count < settings.try_number {
         Outcome::LookAgain
     } else {
         Outcome::GiveUp
