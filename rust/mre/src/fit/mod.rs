@@ -3,6 +3,7 @@
 mod bounded;
 pub mod certified;
 mod descent;
+mod edges;
 mod gauss_newton;
 mod projection;
 mod refine;

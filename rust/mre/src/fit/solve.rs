@@ -5,7 +5,6 @@ use std::sync::atomic::AtomicBool;
 use super::certified::{self, Kind};
 use super::descent::{Point, descend};
 use super::projection::Projection;
-use super::refine::refine;
 use crate::error::Result;
 use crate::fitness::Problem;
 use crate::swarm::{Budget, FishSettings, FishSwarm, History, Monitor, StopReason, Swarm, run};
@@ -165,7 +164,7 @@ fn polish(
     let shapes = best.map_or_else(
         || vec![0.5; projection.dimension()],
         |best| {
-            let (refined, more) = refine(best, &values);
+            let (refined, more) = projection.refine(best);
             evaluations += more;
             refined.at
         },

@@ -7,8 +7,13 @@ use super::intervals::Plan;
 ///
 /// The number of sub-steps follows from it. Rounded, it stays the same in wide ranges of the parameters,
 /// so that the fitness is a smooth function of them but for few small jumps.
-pub(crate) fn stiffness([rho, sigma, n]: [f64; 3]) -> f64 {
-    (rho * n * (2.0 * sigma - 1.0).max(1.0)).log2().ceil().exp2()
+pub(crate) fn stiffness(shape: [f64; 3]) -> f64 {
+    unrounded_stiffness(shape).log2().ceil().exp2()
+}
+
+/// The rate as it is.
+pub(crate) fn unrounded_stiffness([rho, sigma, n]: [f64; 3]) -> f64 {
+    rho * n * (2.0 * sigma - 1.0).max(1.0)
 }
 
 /// How `|w|^n` is computed. A lane's result does not depend on the choice, so that a candidate's value
