@@ -6,6 +6,7 @@ import pytest
 from missing import NOISE, campaign, with_series
 from mre_core import Diagnosis, Effect, Level, Model, Recording, _core
 from mre_core.concealed import make_campaign
+from mre_core.trial.case import Case
 from rig import BOUC_WEN, force_of, motion
 from test_effects import SIZES
 
@@ -67,6 +68,25 @@ def test_laws_on_the_spring_belong_to_hysteretic_bases() -> None:
 def test_both_of_two_are_named(effects: list[str], base: str, seed: int) -> None:
     found = diagnosed(effects, base, seed)
     assert sorted(e.id for e in found.effects) == sorted(effects), found.verdict
+
+
+def test_three_are_named_where_no_second_alone_is_worth_its_name() -> None:
+    case = Case(
+        effects=("thermal_softening", "fractional_viscoelasticity", "coulomb_friction"),
+        laws=("lump", "springpot", "sign"),
+        base="kelvin_voigt",
+        strength=2.0,
+        noise="white",
+        velocity="derived",
+        excitation=None,
+        samples=None,
+        noise_share=0.01,
+        displacement_noise=0.0,
+        seed=124586260,
+    )
+    recordings = [Recording(r.time, r.displacement, r.force, name=r.name) for r in case.simulate().recordings]
+    found = mre_core.diagnose(recordings, case.base, seed=1)
+    assert sorted(e.id for e in found.effects) == sorted(case.effects), found.verdict
 
 
 def test_stribeck_is_told_from_coulomb_where_the_velocity_is_derived() -> None:

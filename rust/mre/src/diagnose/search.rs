@@ -2,10 +2,10 @@
 //!
 //! The law with the lowest whitened BIC enters if its effect's p-value passes Holm's threshold (Holm 1979).
 //! Then other laws of the effects already named are tried in their place, and the noise is estimated anew
-//! from the best model so far. A further effect enters only if it also helps on data that took no part; beside a hum
-//! alone it need not. Pairs are searched from several firsts, because the best single effect may be neither of two. An effect that a later one
-//! makes unnecessary is replaced by it; at the end each of several gives way to one that is better beside the
-//! others, and one that the others make unnecessary leaves.
+//! from the best model so far. A further effect enters only if it also helps on data that took no part, or two that
+//! help together; beside a hum alone it need not. Pairs are searched from several firsts, because the best single
+//! effect may be neither of two. An effect that a later one makes unnecessary is replaced by it; at the end each of
+//! several gives way to one that is better beside the others, and one that the others make unnecessary leaves.
 
 use super::begin::Begun;
 use super::candidates::{Candidate, residuals};
@@ -21,7 +21,7 @@ use crate::assembly::Assembly;
 use crate::effect::Effect;
 
 /// Most effects that are named.
-const MOST: usize = 4;
+pub(super) const MOST: usize = 4;
 /// Candidates that are refitted jointly.
 pub(super) const REFITTED: usize = 8;
 /// The same where only the best is wanted, roughly.
@@ -99,7 +99,8 @@ impl<'a> Search<'_, 'a> {
         while self.found(&here) < MOST {
             if self.moved(&here) > 0 {
                 let mut tried = self.in_turn(&here).into_iter();
-                if let Some(wider) = tried.find_map(|next| self.worth_adding(&here, next, removed_by_first)) {
+                let wider = tried.find_map(|next| self.worth_adding(&here, next, removed_by_first));
+                if let Some(wider) = wider.or_else(|| self.two_worth_adding(&here, removed_by_first)) {
                     here = wider;
                     continue;
                 }

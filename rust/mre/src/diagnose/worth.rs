@@ -5,7 +5,7 @@ use super::monitor::Stage;
 use super::needless::beside_a_hum;
 use super::noise::Noise;
 use super::prove::prove;
-use super::search::{Named, Search};
+use super::search::{MOST, Named, Search};
 use super::splits::Split;
 
 /// A further effect lowers the held-out rms by more than this share of the noise's rms,
@@ -35,6 +35,14 @@ pub(super) struct Improvement {
     pub(super) rest: f64,
     /// Rms of the noise.
     pub(super) noise: f64,
+}
+
+impl Improvement {
+    /// True where next to nothing is left beyond the noise.
+    fn whole(&self) -> bool {
+        let beyond = |rms: f64| rms * rms - self.noise * self.noise;
+        beyond(self.rest - self.held_out) < NOTHING * beyond(self.rest)
+    }
 }
 
 impl<'a> Search<'_, 'a> {
@@ -89,6 +97,26 @@ impl<'a> Search<'_, 'a> {
         self.worth(here, next, &best, by_first)?.then_some(best)
     }
 
+    /// The same with its two best further effects, where both together are worth it: as long as one is missing, the
+    /// other looks like a patch on the form of the first.
+    pub(super) fn two_worth_adding(&self, here: &Named<'a>, by_first: f64) -> Option<Named<'a>> {
+        if here.noise.hidden() || self.found(here) + 2 > MOST {
+            return None;
+        }
+        let further = |named: &Named<'a>| {
+            let next = named.next.as_ref()?;
+            next.assembly.effects().last().filter(|effect| effect.follows_the_motion())?;
+            self.best_law(self.wider(named, next)?)
+        };
+        let one = further(here)?;
+        let two = further(&one)?;
+        let both = self.improvement(here, &two)?;
+        let of_one = self.improvement(here, &one)?.held_out;
+        let least = LEAST_OF_NOISE * both.noise;
+        let each = of_one >= least && both.held_out - of_one >= least;
+        (each && both.whole() && both.held_out >= LEAST_OF_FIRST * by_first).then_some(two)
+    }
+
     /// True where a model, which comes of a candidate, is worth its effects beyond those of another.
     pub(super) fn worth(
         &self,
@@ -97,11 +125,10 @@ impl<'a> Search<'_, 'a> {
         best: &Named<'a>,
         by_first: f64,
     ) -> Option<bool> {
-        let Improvement { held_out, rest, noise, .. } = self.improvement(here, best)?;
+        let improved = self.improvement(here, best)?;
+        let Improvement { held_out, rest, noise, .. } = improved;
         let of_rest = if best.noise.hidden() { LEAST_OF_REST * rest } else { 0.0 };
-        let beyond = |rms: f64| rms * rms - noise * noise;
-        let whole = beyond(rest - held_out) < NOTHING * beyond(rest);
-        let of_first = if whole { 0.0 } else { LEAST_OF_FIRST * by_first };
+        let of_first = if improved.whole() { 0.0 } else { LEAST_OF_FIRST * by_first };
         let follows = next.assembly.effects().last().is_some_and(|e| e.follows_the_motion());
         let weak = if by_first > 0.0 { BESIDE_A_WEAK * by_first } else { f64::INFINITY };
         let of_noise = weak.min(LEAST_OF_NOISE * noise);

@@ -91,6 +91,13 @@ impl FishSwarm {
         }
     }
 
+    /// Work on what is asked for, beside the swarm as it stands.
+    fn with_batch(&mut self, work: impl FnOnce(&mut Batch, &View, &mut [Stream])) {
+        let (mut asked, mut streams) = (std::mem::take(&mut self.asked), std::mem::take(&mut self.streams));
+        work(&mut asked, &self.view(), &mut streams);
+        (self.asked, self.streams) = (asked, streams);
+    }
+
     /// Mean energy of the swarm, eq. 7.
     fn mean_food(&self) -> f64 {
         self.costs.iter().map(|cost| food(*cost)).sum::<f64>() / self.costs.len() as f64
@@ -205,16 +212,12 @@ impl Swarm for FishSwarm {
     }
 
     fn ask(&mut self) -> &[f64] {
-        let (mut asked, mut streams) = (std::mem::take(&mut self.asked), std::mem::take(&mut self.streams));
-        asked.draw(&self.view(), &mut streams);
-        (self.asked, self.streams) = (asked, streams);
+        self.with_batch(Batch::draw);
         self.asked.rows()
     }
 
     fn ask_and_evaluate(&mut self, fitness: &dyn Shared, costs: &mut [f64]) {
-        let (mut asked, mut streams) = (std::mem::take(&mut self.asked), std::mem::take(&mut self.streams));
-        asked.evaluate(&self.view(), &mut streams, fitness, costs);
-        (self.asked, self.streams) = (asked, streams);
+        self.with_batch(|asked, view, streams| asked.evaluate(view, streams, fitness, costs));
     }
 
     fn tell(&mut self, costs: &[f64]) {
