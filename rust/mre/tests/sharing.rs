@@ -83,3 +83,23 @@ fn fish_swim_the_same_on_any_number_of_threads() {
         }
     }
 }
+
+#[test]
+fn what_was_broken_off_is_not_taken_for_seen() {
+    let problem = example("sinh");
+    let never = AtomicBool::new(false);
+    let mut fitness = OfProblem { problem: &problem, cancel: &never };
+    let whole = swim(swarm(Search::Best), &mut fitness);
+    let mut broken = swarm(Search::Best);
+    while broken.asked() < 500 {
+        let mut costs = vec![0.0; broken.asked()];
+        broken.ask_and_evaluate(&fitness, &mut costs);
+        broken.tell(&costs);
+    }
+    let cancelled = OfProblem { problem: &problem, cancel: &AtomicBool::new(true) };
+    let mut costs = vec![0.0; broken.asked()];
+    broken.ask_and_evaluate(&cancelled, &mut costs);
+    assert!(costs.iter().all(|cost| cost.is_nan()));
+    broken.tell_some(&costs);
+    assert_eq!(swim(broken, &mut fitness), whole);
+}

@@ -88,6 +88,11 @@ impl Batch {
         }
     }
 
+    /// Forget what was seen, where it was broken off.
+    pub(super) fn forget(&mut self) {
+        self.seen.clear();
+    }
+
     /// The fish, what they wait for, their rows and what was seen there.
     pub(super) fn with_what_was_seen(&self) -> impl Iterator<Item = (usize, Wait, &[f64], &Seen)> {
         let mut rows = self.rows();
@@ -115,6 +120,7 @@ impl Batch {
         costs: &mut [f64],
     ) {
         if std::mem::replace(&mut self.drawn, true) {
+            self.forget();
             fitness.costs(self.rows(), costs);
             return;
         }

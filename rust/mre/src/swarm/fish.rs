@@ -239,6 +239,7 @@ impl Swarm for FishSwarm {
     }
 
     fn tell_some(&mut self, costs: &[f64]) {
+        self.asked.forget();
         self.bulletin.note(&self.asked.rows()[..costs.len() * self.dimension], costs);
     }
 
