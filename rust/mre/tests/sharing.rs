@@ -103,3 +103,17 @@ fn what_was_broken_off_is_not_taken_for_seen() {
     broken.tell_some(&costs);
     assert_eq!(swim(broken, &mut fitness), whole);
 }
+
+#[test]
+fn costs_may_be_told_without_asking_again() {
+    let problem = example("sinh");
+    let (mut asking, mut silent) = (swarm(Search::Best), swarm(Search::Best));
+    while !asking.finished() {
+        let mut costs = vec![0.0; asking.asked()];
+        problem.fitness_in_box(asking.ask(), &mut costs, &AtomicBool::new(false));
+        asking.tell(&costs);
+        silent.tell(&costs);
+    }
+    assert!(silent.finished());
+    assert_eq!(silent.bulletin(), asking.bulletin());
+}

@@ -221,6 +221,8 @@ impl Swarm for FishSwarm {
     }
 
     fn tell(&mut self, costs: &[f64]) {
+        // Costs of points that nobody has asked for yet: of a run that is repeated.
+        self.with_batch(Batch::draw);
         if let Stage::Acts = self.stage {
             self.act(costs);
             return;
