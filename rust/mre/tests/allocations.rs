@@ -9,11 +9,11 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::sync::atomic::AtomicBool;
 
-use common::{Trial, problem, with_threads};
+use common::{Trial, mafsa, problem, with_threads};
 use mre::fitness::{Problem, Weights};
 use mre::swarm::{
-    Budget, Crowd, FishSettings, FishSwarm, Neighbourhood, OfProblem, ParticleSwarm, PsoSettings, Schedule,
-    Search, Swarm, run,
+    Budget, FishSettings, FishSwarm, Neighbourhood, OfProblem, ParticleSwarm, PsoSettings, Schedule, Search,
+    Swarm, run,
 };
 
 struct Counting;
@@ -51,22 +51,12 @@ unsafe impl GlobalAlloc for Counting {
 static ALLOCATOR: Counting = Counting;
 
 fn fish(iterations: usize, search: Search, neighbourhood: Neighbourhood) -> FishSettings {
+    let plain = mafsa(iterations);
     let schedule = match neighbourhood {
-        Neighbourhood::Swarm => Schedule::FromStart { visual_min: 0.002, step_min: 0.0003, p: 5 },
+        Neighbourhood::Swarm => plain.schedule,
         Neighbourhood::Visual => Schedule::Constant,
     };
-    FishSettings {
-        fish: 50,
-        iterations,
-        try_number: 50,
-        delta: 0.6,
-        visual: 0.5,
-        step: 0.25,
-        schedule,
-        neighbourhood,
-        crowd: Crowd::Literal,
-        search,
-    }
+    FishSettings { schedule, neighbourhood, search, ..plain }
 }
 
 /// Allocations from the making of a swarm to its end.

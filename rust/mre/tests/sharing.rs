@@ -5,12 +5,9 @@ mod common;
 
 use std::sync::atomic::AtomicBool;
 
-use common::{Trial, fitness, problem, with_threads};
+use common::{Trial, fitness, mafsa, problem, with_threads};
 use mre::fitness::{Problem, Weights};
-use mre::swarm::{
-    Budget, Crowd, FishSettings, FishSwarm, Fitness, History, Neighbourhood, OfProblem, Schedule, Search,
-    Stream, Swarm, run,
-};
+use mre::swarm::{Budget, FishSettings, FishSwarm, Fitness, History, OfProblem, Search, Stream, Swarm, run};
 
 fn example(model: &str) -> Problem {
     let trial = Trial { samples: 300, stroke: 4.0, truth: [1.1, 13.7, 14.6, 0.3, 1.0], noise: 1e-2, seed: 1 };
@@ -46,19 +43,7 @@ fn points_of_the_box_cost_what_their_parameters_cost() {
 }
 
 fn swarm(search: Search) -> FishSwarm {
-    let settings = FishSettings {
-        fish: 50,
-        iterations: 20,
-        try_number: 50,
-        delta: 0.6,
-        visual: 0.5,
-        step: 0.25,
-        schedule: Schedule::FromStart { visual_min: 0.002, step_min: 0.0003, p: 5 },
-        neighbourhood: Neighbourhood::Swarm,
-        crowd: Crowd::Literal,
-        search,
-    };
-    FishSwarm::new(settings, 5, 1, None).unwrap()
+    FishSwarm::new(FishSettings { search, ..mafsa(20) }, 5, 1, None).unwrap()
 }
 
 /// Where a swarm has come to.

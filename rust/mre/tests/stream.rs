@@ -6,13 +6,13 @@ mod common;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use common::{Bounds, Trial, fitness, problem, with_threads};
+use common::{Bounds, Trial, fitness, mafsa, problem, with_threads};
 use mre::error::Error;
 use mre::fit::certified::{certificate, exact};
 use mre::fit::{self, hybrid};
 use mre::fitness::{Problem, Stream, Weights};
 use mre::recording::Recording;
-use mre::swarm::{Budget, Crowd, FishSettings, Neighbourhood, Schedule, Search};
+use mre::swarm::{Budget, FishSettings};
 use mre::uncertainty::{bootstrap, estimate, profile};
 
 fn recording(samples: usize) -> Arc<Recording> {
@@ -111,18 +111,7 @@ fn a_wider_range_is_as_good() {
 #[test]
 fn the_hybrid_needs_no_samples() {
     let problem = streamed(&recording(5_000), 1_000, &[]);
-    let settings = FishSettings {
-        fish: 8,
-        iterations: 8,
-        try_number: 8,
-        delta: 0.6,
-        visual: 0.5,
-        step: 0.25,
-        schedule: Schedule::FromStart { visual_min: 0.002, step_min: 0.0003, p: 5 },
-        neighbourhood: Neighbourhood::Swarm,
-        crowd: Crowd::Literal,
-        search: Search::Best,
-    };
+    let settings = FishSettings { fish: 8, try_number: 8, ..mafsa(8) };
     let never = AtomicBool::new(false);
     let found = hybrid(&problem, settings, 1, None, &Budget::default(), &mut |_| true, &never).unwrap();
     let best = fit::exact(&problem, &never);

@@ -98,9 +98,7 @@ impl<'a> Search<'_, 'a> {
         let mut replacements = 0;
         while self.found(&here) < MOST {
             if self.moved(&here) > 0 {
-                let mut tried = self.in_turn(&here).into_iter();
-                let wider = tried.find_map(|next| self.worth_adding(&here, next, removed_by_first));
-                if let Some(wider) = wider.or_else(|| self.two_worth_adding(&here, removed_by_first)) {
+                if let Some(wider) = self.worth_adding(&here, removed_by_first) {
                     here = wider;
                     continue;
                 }

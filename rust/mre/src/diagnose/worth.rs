@@ -45,6 +45,11 @@ impl Improvement {
     }
 }
 
+/// True for a candidate whose own effect follows the motion.
+fn moves(next: &Candidate) -> bool {
+    next.assembly.effects().last().is_some_and(|effect| effect.follows_the_motion())
+}
+
 impl<'a> Search<'_, 'a> {
     /// Rms of a candidate on held-out samples, N.
     pub(super) fn held_out(&self, noise: &Noise, c: &Candidate<'a>) -> f64 {
@@ -85,33 +90,34 @@ impl<'a> Search<'_, 'a> {
         tried.into_iter().map(|(_, c)| c).collect()
     }
 
-    /// The same with its best law, if it also helps on data that took no part: by much, where it could patch the
-    /// form of the others.
-    pub(super) fn worth_adding(
-        &self,
-        here: &Named<'a>,
-        next: &Candidate<'a>,
-        by_first: f64,
-    ) -> Option<Named<'a>> {
-        let best = self.best_law(self.wider(here, next)?)?;
-        self.worth(here, next, &best, by_first)?.then_some(best)
+    /// The same with the first further effect, under its best law, that also helps on data that took no part: by
+    /// much, where it could patch the form of the others. Or with two, where one alone is not worth adding.
+    pub(super) fn worth_adding(&self, here: &Named<'a>, by_first: f64) -> Option<Named<'a>> {
+        let mut refused = None;
+        for next in self.in_turn(here) {
+            let Some(best) = self.further(here, next) else { continue };
+            if self.worth(here, next, &best, by_first) == Some(true) {
+                return Some(best);
+            }
+            refused = moves(next).then_some(best);
+        }
+        self.two_worth_adding(here, &refused?, by_first)
     }
 
-    /// The same with its two best further effects, where both together are worth it: as long as one is missing, the
-    /// other looks like a patch on the form of the first.
-    pub(super) fn two_worth_adding(&self, here: &Named<'a>, by_first: f64) -> Option<Named<'a>> {
+    /// A model with one more effect under its best law, if that is significant.
+    fn further(&self, here: &Named<'a>, next: &Candidate<'a>) -> Option<Named<'a>> {
+        self.best_law(self.wider(here, next)?)
+    }
+
+    /// The same with one effect and the best beside it, where both together are worth it: as long as one is missing,
+    /// the other looks like a patch on the form of the first.
+    fn two_worth_adding(&self, here: &Named<'a>, one: &Named<'a>, by_first: f64) -> Option<Named<'a>> {
         if here.noise.hidden() || self.found(here) + 2 > MOST {
             return None;
         }
-        let further = |named: &Named<'a>| {
-            let next = named.next.as_ref()?;
-            next.assembly.effects().last().filter(|effect| effect.follows_the_motion())?;
-            self.best_law(self.wider(named, next)?)
-        };
-        let one = further(here)?;
-        let two = further(&one)?;
+        let two = self.further(one, one.next.as_ref().filter(|next| moves(next))?)?;
         let both = self.improvement(here, &two)?;
-        let of_one = self.improvement(here, &one)?.held_out;
+        let of_one = self.improvement(here, one)?.held_out;
         let least = LEAST_OF_NOISE * both.noise;
         let each = of_one >= least && both.held_out - of_one >= least;
         (each && both.whole() && both.held_out >= LEAST_OF_FIRST * by_first).then_some(two)
@@ -129,7 +135,7 @@ impl<'a> Search<'_, 'a> {
         let Improvement { held_out, rest, noise, .. } = improved;
         let of_rest = if best.noise.hidden() { LEAST_OF_REST * rest } else { 0.0 };
         let of_first = if improved.whole() { 0.0 } else { LEAST_OF_FIRST * by_first };
-        let follows = next.assembly.effects().last().is_some_and(|e| e.follows_the_motion());
+        let follows = moves(next);
         let weak = if by_first > 0.0 { BESIDE_A_WEAK * by_first } else { f64::INFINITY };
         let of_noise = weak.min(LEAST_OF_NOISE * noise);
         let least = if follows { of_noise.max(of_first).max(of_rest) } else { 0.0 };

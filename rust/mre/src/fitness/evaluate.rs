@@ -11,11 +11,7 @@ impl Problem {
     /// True where so few candidates are evaluated on the calling thread alone, outside any thread pool: the
     /// work is not worth sharing.
     pub fn on_one_thread(&self, candidates: usize) -> bool {
-        match &*self.kernel {
-            Kernel::Sinh(kernel) => candidates < 2 * kernel.grain(),
-            Kernel::BoucWen(_) => candidates <= LANES,
-            Kernel::Terms => candidates < 2 * self.grain_of_terms(),
-        }
+        if self.side_by_side() { candidates <= LANES } else { candidates < 2 * self.grain() }
     }
 
     /// Candidates that keep a thread busy for longer than it takes to hand them over.
