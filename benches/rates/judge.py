@@ -27,6 +27,11 @@ class Outcome:
     error: float
     """Rms of the final model's force against the noise-free truth, over that of the noise."""
     seconds: float
+    sets: tuple[int, ...]
+    """For each effect named, with how many it may be exchanged, itself included."""
+    twin: bool = False
+    """True where the truth may not be named, and a diagnosis that may name all says that these recordings
+    cannot tell it from what is named."""
 
     @property
     def right(self) -> bool:
@@ -57,11 +62,12 @@ def run(trial: Trial) -> Outcome:
         threads=1,
     )
     seconds = time.perf_counter() - start
+    named = tuple(effect.id for effect in found.effects)
     pairs = zip(found.histories, made.recordings, strict=True)
     error = np.concatenate([history.final - recorded.truth for history, recorded in pairs])
     return Outcome(
         trial,
-        tuple(effect.id for effect in found.effects),
+        named,
         tuple(rival for effect in found.effects for rival in effect.indistinguishable_from),
         found.verdict,
         float(found.p_values["base"]),
@@ -69,7 +75,18 @@ def run(trial: Trial) -> Outcome:
         made.reached,
         float(np.sqrt(np.mean(error**2))) / made.noise_rms,
         seconds,
+        tuple(1 + len(effect.indistinguishable_from) for effect in found.effects),
+        bool(trial.without) and found.verdict == "missing_physics" and _exchanged(trial, made, named),
     )
+
+
+def _exchanged(trial: Trial, made: Campaign, named: tuple[str, ...]) -> bool:
+    """Whether the diagnosis that may name everything says that the truth cannot be told from these names."""
+    every = mre_core.diagnose(
+        recordings_of(made), trial.case.base, seed=1, false_alarm=trial.false_alarm, threads=1
+    )
+    said = {one for effect in every.effects for one in (effect.id, *effect.indistinguishable_from)}
+    return {*named, *trial.case.effects} <= said
 
 
 def recordings_of(made: Campaign) -> list[Recording]:

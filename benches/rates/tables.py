@@ -1,40 +1,20 @@
 """Tables of outcomes, as Markdown."""
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
+from detection import nulls, power
 from judge import Outcome
 from located import Located
 from mre_core.trial.rates import Rate
-from plans import LEVEL
 from resolve import Resolved
-from scipy.stats import kstest
-
-Row = Sequence[object]
-
-
-def table(head: Row, rows: Iterable[Row]) -> str:
-    """A table; numbers to the right."""
-    lines = [" | ".join(map(str, head)), " | ".join(["---"] + ["---:"] * (len(head) - 1))]
-    return "\n".join(f"| {line} |" for line in [*lines, *(" | ".join(map(str, row)) for row in rows)])
-
-
-def rate(found: Sequence[Outcome], of: Callable[[Outcome], bool]) -> Rate:
-    """Share of outcomes."""
-    return Rate(sum(map(of, found)), len(found))
-
-
-def _by(found: Sequence[Outcome], key: Callable[[Outcome], object]) -> dict[object, list[Outcome]]:
-    groups: dict[object, list[Outcome]] = {}
-    for outcome in found:
-        groups.setdefault(key(outcome), []).append(outcome)
-    return groups
+from rows import by, rate, table
 
 
 def naming(found: Sequence[Outcome]) -> str:
     """Names right, by strength, and every case that is not right."""
-    groups = _by([o for o in found if o.reached], lambda o: o.trial.case.strength)
+    groups = by([o for o in found if o.reached], lambda o: o.trial.case.strength)
     rows = [
         (
             f"{strength:g}",
@@ -59,9 +39,13 @@ def naming(found: Sequence[Outcome]) -> str:
         if o.reached and not o.right
     )
     absorbed = sum(not o.reached for o in found)
+    sizes = Counter(size for o in found if o.reached for size in o.sets)
+    told = ", ".join(f"{size}: {n}" for size, n in sorted(sizes.items()))
     return "\n".join(
         [
             table((*head, *more), rows),
+            "",
+            f"Effects that may stand in one place, and how often: {told}.",
             "",
             f"Not counted: {absorbed} that the base model absorbs at any size. Not right: "
             + ("; ".join(f"{what} ({n})" for what, n in misses.most_common()) or "none")
@@ -77,7 +61,7 @@ def admission(found: Sequence[Outcome]) -> str:
         return o.trial.case.effects[0] if o.trial.without else o.trial.case.laws[0]
 
     reached = [o for o in found if o.reached]
-    groups = {"all": reached, **_by(reached, key)}
+    groups = {"all": reached, **by(reached, key)}
     rows = [
         (
             what,
@@ -85,6 +69,7 @@ def admission(found: Sequence[Outcome]) -> str:
             rate(own, lambda o: o.verdict == "unexplained"),
             rate(own, lambda o: o.verdict == "partly_explained"),
             rate(own, lambda o: o.verdict == "missing_physics"),
+            sum(o.twin for o in own),
             sum(o.verdict == "missing_physics" and o.p_rest > o.trial.false_alarm for o in own),
             rate(own, lambda o: o.verdict == "adequate"),
             ", ".join(sorted({n for o in own for n in o.named})),
@@ -92,48 +77,8 @@ def admission(found: Sequence[Outcome]) -> str:
         for what, own in groups.items()
     ]
     head = ("concealed", "cases", "`unexplained`", "`partly_explained`", "a wrong name as the whole answer")
+    head = (*head, "of these not to be told from the truth")
     return table((*head, "of these down to the noise", "nothing found", "names given"), rows)
-
-
-def nulls(found: Sequence[Outcome]) -> str:
-    """False discoveries by noise."""
-
-    def of_the_noise(o: Outcome) -> bool:
-        """A hum is there: to name it is right."""
-        return o.trial.case.noise == "mains" and set(o.named) == {"mains_interference"}
-
-    def false(o: Outcome) -> bool:
-        return o.verdict != "adequate" and not of_the_noise(o)
-
-    groups = {"all": list(found), **_by(found, lambda o: o.trial.case.noise)}
-    rows = []
-    for what, own in groups.items():
-        rows.append(
-            (
-                what,
-                len(own),
-                sum(map(false, own)),
-                rate(own, false),
-                sum(map(of_the_noise, own)),
-                f"{kstest([o.p_base for o in own], 'uniform').pvalue:.2g}",
-                ", ".join(sorted({n for o in own if false(o) for n in (o.named or (o.verdict,))})),
-            )
-        )
-    head = ("noise", "nulls", "false", f"rate (stated: {100 * LEVEL:g} %)", "hum named", "p uniform")
-    return table((*head, "what was said"), rows)
-
-
-def power(found: Sequence[Outcome]) -> str:
-    """Detection beside the oracle's, by strength."""
-    ours = [o for o in found if not o.trial.without]
-    oracle = [o for o in found if o.trial.without]
-    rows = []
-    for strength, own in sorted(_by(ours, lambda o: o.trial.case.strength).items(), key=str, reverse=True):
-        best = [o for o in oracle if o.trial.case.strength == strength]
-        said = (rate(own, lambda o: o.verdict != "adequate"), rate(own, lambda o: o.among))
-        rows.append((f"{strength:g}", len(own), rate(best, lambda o: bool(o.named)), *said))
-    head = ("strength", "cases", "oracle detects", "ours says that something is missing")
-    return table((*head, "ours: truth named or listed as indistinguishable"), rows)
 
 
 def resolved(found: Sequence[Resolved]) -> str:

@@ -42,6 +42,9 @@ class MissingEffect:
     lack_of_fit: float
     """What an approximate form leaves, as a share of the force's rms."""
     indistinguishable_from: tuple[str, ...]
+    at_the_end: tuple[str, ...]
+    """Parameters that the recordings press to the end of their range, or that cannot be told from nothing and
+    without which it is another effect: the name is then the nearest one, and the form approximate."""
     held_out_rms_before: float
     """Rms error in N on held-out data without this effect, the other effects in place."""
     held_out_rms_after: float
@@ -145,10 +148,14 @@ class Diagnosis:
         named = [e.id for e in self.effects]
         if self.verdict is None or not isfinite(self.fit.held_out_rms_after):
             return words.broken_off(self.verdict, self.base, named)
-        told = words.verdict(self.verdict, self.base, named, asdict(self.fit))
-        fitted = self.refitted
-        more = [] if fitted is None else [words.refitted(fitted.rms_as_given, fitted.rms_fitted)]
-        return " ".join([told, *more])
+        ends = {e.id: e.at_the_end for e in self.effects if e.at_the_end}
+        whole = bool(ends) and not any(e.lack_of_fit for e in self.effects)
+        told = [words.verdict("nearest" if whole else self.verdict, self.base, named, asdict(self.fit))]
+        if ends:
+            told.append(words.at_the_end(ends))
+        if self.refitted is not None:
+            told.append(words.refitted(self.refitted.rms_as_given, self.refitted.rms_fitted))
+        return " ".join(told)
 
     def to_dict(self) -> dict[str, Any]:
         """Content of ``diagnosis.json``."""
@@ -160,7 +167,11 @@ class Diagnosis:
             "verdict": self.verdict,
             "statement": str(self),
             "effects": [
-                asdict(effect) | {"indistinguishable_from": list(effect.indistinguishable_from)}
+                asdict(effect)
+                | {
+                    "indistinguishable_from": list(effect.indistinguishable_from),
+                    "at_the_end": list(effect.at_the_end),
+                }
                 for effect in self.effects
             ],
             "where": [dict(place) for place in self.where],

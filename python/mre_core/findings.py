@@ -64,7 +64,8 @@ def missing_effects(raw: Raw, names: Sequence[str], force: float) -> tuple[Missi
     still = [effect["of_the_measurement"] for effect in raw["effects"]]
     doubted = still.index(False) if False in still else 0
     for rank, effect in enumerate(raw["effects"]):
-        inexact = rank == doubted and raw["approximate"]
+        at_the_end = tuple(effect["at_the_end"])
+        leaves = rank == doubted and raw["approximate"]
         shows = _shows(effect, raw["where"], names) if rank == 0 else None
         found.append(
             MissingEffect(
@@ -75,9 +76,10 @@ def missing_effects(raw: Raw, names: Sequence[str], force: float) -> tuple[Missi
                 reference=effect["reference"],
                 parameters=_estimates(effect, names),
                 p_value=effect["p_value"],
-                form="approximate" if inexact else "exact",
-                lack_of_fit=raw["lack_of_fit_N"] / force if inexact else 0.0,
+                form="approximate" if leaves or at_the_end else "exact",
+                lack_of_fit=raw["lack_of_fit_N"] / force if leaves else 0.0,
                 indistinguishable_from=tuple(effect["indistinguishable_from"]),
+                at_the_end=at_the_end,
                 held_out_rms_before=_known(effect["held_out_rms_before"]),
                 held_out_rms_after=_known(effect["held_out_rms_after"]),
             )

@@ -10,7 +10,8 @@ def verdict(kind: str, base: str, effects: Sequence[str], fit: Mapping[str, Any]
     Parameters
     ----------
     kind : str
-        ``"adequate"``, ``"missing_physics"``, ``"partly_explained"`` or ``"unexplained"``.
+        ``"adequate"``, ``"missing_physics"``, ``"partly_explained"`` or ``"unexplained"``; ``"nearest"``
+        where nothing is left of a mismatch, but its effects fit only at the end of their range.
     base : str
         Name of the base model.
     effects : sequence of str
@@ -27,9 +28,20 @@ def verdict(kind: str, base: str, effects: Sequence[str], fit: Mapping[str, Any]
         "missing_physics": f"{model} leaves out {named}: with it {falls}, where the noise has {noise}.",
         "partly_explained": f"{model} leaves out {named}: with it {falls}, but a mismatch is left that no"
         " effect of the catalogue explains.",
+        "nearest": f"{model} leaves out what {named} comes nearest to: with it {falls}, where the noise has"
+        f" {noise}.",
         "unexplained": f"{model} misses something that no effect of the catalogue explains: its rms error on"
         f" held-out data is {error}, where the noise has {noise}.",
     }[kind].replace("with it", "with them" if len(effects) > 1 else "with it")
+
+
+def at_the_end(effects: Mapping[str, Sequence[str]]) -> str:
+    """Say which parameters the recordings press to the end of their range, by effect."""
+    each = "; ".join(f"{listed(names)} of {effect}" for effect, names in effects.items() if names)
+    return (
+        f"At the end of its range, or not to be told from nothing: {each}. The name is the nearest one of the"
+        " catalogue, and what is there may be another effect."
+    )
 
 
 def refitted(rms_as_given: float, rms_fitted: float) -> str:

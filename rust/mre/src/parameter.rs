@@ -28,6 +28,17 @@ pub struct Parameter {
     pub upper: f64,
     /// Spread over the unit interval.
     pub scale: Scale,
+    /// Bounds at which its law is an ideal of its own (a sharp sign, say), and not about to be another's.
+    pub ideal: Ideal,
+}
+
+/// Which bounds of a parameter are ideals.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Ideal {
+    /// The lower one.
+    pub lower: bool,
+    /// The upper one.
+    pub upper: bool,
 }
 
 /// A bound beyond this could not be squared beside forces and motions that are taken.

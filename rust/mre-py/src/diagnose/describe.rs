@@ -4,8 +4,8 @@ use mre::assembly::{Assembly, Base};
 use mre::device::Level;
 use mre::diagnose::{
     self, Blank, Diagnosis, Estimate, Estimates, NextTest, On, Place, Proof, Prospect, Refitted, Unknown,
+    strained,
 };
-use mre::effect::Effect;
 use serde_json::{Value, json};
 
 /// What came after a diagnosis.
@@ -150,6 +150,7 @@ fn effect(found: &Diagnosis, named: &diagnose::Effect) -> Value {
     let mut row = law(&found.named.assembly, &found.estimates, named.place);
     row["p_value"] = json!(named.p_value);
     row["indistinguishable_from"] = json!(named.rivals);
+    row["at_the_end"] = json!(strained(&found.named.assembly, &found.estimates, named.place));
     row["held_out_rms_before"] = json!(named.held_out.map(|h| h.before));
     row["held_out_rms_after"] = json!(named.held_out.map(|h| h.after));
     row
@@ -158,26 +159,15 @@ fn effect(found: &Diagnosis, named: &diagnose::Effect) -> Value {
 /// One of the effects of an assembly, with its parameters. Coefficients of the measurement come recording by
 /// recording.
 fn law(assembly: &Assembly, estimates: &Estimates, place: usize) -> Value {
-    let sizes = assembly.campaign().sizes();
-    let recordings = assembly.campaign().recordings().len();
-    let (mut coefficient, mut shape) = (assembly.base_coefficients(), assembly.base_shapes());
-    let count = |e: &&'static dyn Effect| {
-        let copies = if e.of_the_measurement() { recordings } else { 1 };
-        (copies * e.coefficients().len(), e.shape(sizes).len())
-    };
-    for before in &assembly.effects()[..place] {
-        let (coefficients, shapes) = count(before);
-        coefficient += coefficients;
-        shape += shapes;
-    }
+    let (coefficients, shapes) = assembly.of_effect(place);
     let this = &assembly.effects()[place];
-    let (about, (coefficients, shapes)) = (this.about(), count(this));
+    let about = this.about();
     let rows = |all: &[Estimate]| all.iter().map(estimate).collect::<Vec<_>>();
     json!({
         "place": place, "id": about.effect, "law": about.law, "plain": about.plain, "equation": about.equation,
         "reference": about.reference, "limit": about.limit, "of_the_measurement": this.of_the_measurement(),
-        "coefficients": rows(&estimates.coefficients[coefficient..coefficient + coefficients]),
-        "shapes": rows(&estimates.shapes[shape..shape + shapes]),
+        "coefficients": rows(&estimates.coefficients[coefficients]),
+        "shapes": rows(&estimates.shapes[shapes]),
     })
 }
 

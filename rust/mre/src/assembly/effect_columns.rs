@@ -48,10 +48,9 @@ impl Assembly<'_> {
         shape_of: &'s [&'s [f64]],
     ) -> impl Iterator<Item = (&'static dyn Effect, &'s [f64], usize)> {
         let mut next = self.base_coefficients();
-        let recordings = self.campaign.recordings().len();
         self.effects.iter().zip(shape_of).map(move |(effect, shape)| {
             let first = next;
-            next += effect.coefficients().len() * if effect.of_the_measurement() { recordings } else { 1 };
+            next += effect.coefficients().len() * self.copies(*effect);
             (*effect, *shape, first)
         })
     }

@@ -1,5 +1,6 @@
 //! Which parameters an assembly has, and in which order.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use super::base::{Base, Group};
@@ -141,10 +142,8 @@ impl<'a> Assembly<'a> {
     /// Linear coefficients with their limits: those of the base group by group, then of the effects.
     pub fn coefficients(&self) -> Vec<Parameter> {
         let of_group = |g: &'a Group| g.coefficients.iter().map(|i| g.problem.parameters()[*i].clone());
-        let of_effect = |e: &&'static dyn Effect| {
-            let copies = if e.of_the_measurement() { self.campaign.recordings().len() } else { 1 };
-            (0..copies).flat_map(|_| e.coefficients()).collect::<Vec<_>>()
-        };
+        let of_effect =
+            |e: &&'static dyn Effect| (0..self.copies(*e)).flat_map(|_| e.coefficients()).collect::<Vec<_>>();
         self.base.groups().iter().flat_map(of_group).chain(self.effects.iter().flat_map(of_effect)).collect()
     }
 
@@ -152,9 +151,8 @@ impl<'a> Assembly<'a> {
     pub(crate) fn known_of_coefficients(&self) -> Vec<f64> {
         let mut found = vec![0.0; self.base_coefficients()];
         for effect in &self.effects {
-            let copies = if effect.of_the_measurement() { self.campaign.recordings().len() } else { 1 };
             let known = effect.known_of_coefficients(self.campaign.sizes());
-            found.extend(vec![known; copies * effect.coefficients().len()]);
+            found.extend(vec![known; self.copies(*effect) * effect.coefficients().len()]);
         }
         found
     }
@@ -164,10 +162,26 @@ impl<'a> Assembly<'a> {
         let mut found = vec![true; self.base_coefficients()];
         for effect in &self.effects {
             let own = effect.of_the_measurement();
-            let copies = if own { self.campaign.recordings().len() } else { 1 };
-            found.extend(vec![!own; copies * effect.coefficients().len()]);
+            found.extend(vec![!own; self.copies(*effect) * effect.coefficients().len()]);
         }
         found
+    }
+
+    /// How often the coefficients of an effect stand in the model.
+    pub(super) fn copies(&self, effect: &dyn Effect) -> usize {
+        if effect.of_the_measurement() { self.campaign.recordings().len() } else { 1 }
+    }
+
+    /// Where the coefficients and the shapes of an effect stand among all.
+    pub fn of_effect(&self, place: usize) -> (Range<usize>, Range<usize>) {
+        let count = |e: &&'static dyn Effect| {
+            (self.copies(*e) * e.coefficients().len(), e.shape(self.campaign.sizes()).len())
+        };
+        let sum = |(c, s): (usize, usize), (more, shapes): (usize, usize)| (c + more, s + shapes);
+        let before = self.effects[..place].iter().map(count);
+        let (c, s) = before.fold((self.base_coefficients(), self.base_shapes()), sum);
+        let (coefficients, shapes) = count(&self.effects[place]);
+        (c..c + coefficients, s..s + shapes)
     }
 
     /// Number of linear coefficients of the base.

@@ -2,10 +2,14 @@
 
 use nalgebra::DMatrix;
 
+use super::exchange::CLEAR;
 use super::least_squares::Data;
 use super::point::Point;
 use crate::assembly::Assembly;
 use crate::parameter::Scale;
+
+/// Share of a box by which a parameter is moved off its end to see what that costs.
+const INWARD: f64 = 0.1;
 
 /// 95 % of a normal variable lie within so many standard deviations.
 const WIDTH: f64 = 1.959_963_984_540_054;
@@ -23,6 +27,8 @@ pub struct Estimate {
     pub low: f64,
     /// Upper end; infinite ends mean that the recordings do not determine the parameter.
     pub high: f64,
+    /// True where it lies on an end of its box that is no ideal of its law, and the recordings press it there.
+    pub pressed: bool,
 }
 
 /// Coefficients and shapes with their intervals.
@@ -61,7 +67,7 @@ pub(super) fn estimates(assembly: &Assembly, data: Data, unit: &[f64]) -> Estima
         .map(|(i, (p, value))| {
             let half = WIDTH * deviation(i);
             let (low, high) = ((value - half).max(p.smallest), (value + half).min(p.largest));
-            Estimate { name: p.name, unit: p.unit, value: *value, low, high }
+            Estimate { name: p.name, unit: p.unit, value: *value, low, high, pressed: false }
         })
         .collect();
     let first = coefficients.len();
@@ -85,7 +91,11 @@ pub(super) fn estimates(assembly: &Assembly, data: Data, unit: &[f64]) -> Estima
                     (value / factor, value * factor)
                 }
             };
-            Estimate { name: p.name.clone(), unit: p.unit, value, low: low.max(p.smallest), high }
+            let on_end = (unit[j] <= 0.0 && !p.ideal.lower) || (unit[j] >= 1.0 && !p.ideal.upper);
+            let slope = system.right[first + j].abs();
+            let cost = 2.0 * INWARD * slope + (INWARD / deviation(first + j)).powi(2);
+            let pressed = on_end && cost > CLEAR;
+            Estimate { name: p.name.clone(), unit: p.unit, value, low: low.max(p.smallest), high, pressed }
         })
         .collect();
     Estimates { coefficients, shapes }

@@ -12,9 +12,10 @@ use super::null::Null;
 use super::point::forces;
 use super::resolution::nothing_left;
 use super::search::{Named, rms};
+use super::strained::any_strained;
 use super::uneven::Uneven;
 use super::unnamed::{self, Unnamed};
-use super::verdict::{Evidence, Tests, Verdict};
+use super::verdict::{Against, Evidence, Tests, Verdict};
 use crate::assembly::Assembly;
 
 /// A model with what speaks for and against it.
@@ -98,6 +99,12 @@ fn alone<'a>(
     let wandering = last.as_ref().map_or(Mismatch::NONE, Null::wandering);
     let odd = last.as_ref().map_or(Mismatch::NONE, Null::odd_recording);
     let uneven = last.as_ref().and_then(Null::uneven).unwrap_or(Uneven::NONE);
+    let own = begun.assembly.effects().len()..named.assembly.effects().len();
+    let against = match any_strained(&named, data, own) {
+        _ if surpassed => Against::Surpassed,
+        true => Against::AtTheEnd,
+        false => Against::Nothing,
+    };
     let tests = Tests {
         first,
         rest,
@@ -108,7 +115,7 @@ fn alone<'a>(
         explained,
         change,
         noise: named.noise_rms(data),
-        surpassed,
+        against,
         nothing_left,
     };
     let evidence = Evidence::new(&tests, &named, begun.noise.hidden(), false_alarm);

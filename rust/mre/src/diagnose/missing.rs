@@ -115,6 +115,8 @@ pub(super) struct Generic {
     squares: Vec<f64>,
     /// True where the velocity of a recording is derived from its displacement.
     derived: bool,
+    /// How much larger a gain is by chance because the noise was estimated.
+    inflation: f64,
 }
 
 impl Generic {
@@ -130,7 +132,9 @@ impl Generic {
     /// Those that depend on some things.
     pub(super) fn of(&self, chosen: impl Fn(On) -> bool) -> Mismatch {
         let places: Vec<usize> = (0..self.on.len()).filter(|i| chosen(self.on[*i])).collect();
-        Projected::of(&self.gram, &self.right, &self.squares, &places).mismatch()
+        let Mismatch { gain, freedom, .. } =
+            Projected::of(&self.gram, &self.right, &self.squares, &places).mismatch();
+        Mismatch::new(gain / self.inflation, freedom)
     }
 
     /// What features depend on, each thing once.
@@ -199,6 +203,6 @@ impl Null<'_> {
             columns
         });
         let derived = self.assembly().campaign().recordings().iter().any(|r| r.velocity_window().is_some());
-        Generic { on, gram, right, squares, derived }
+        Generic { on, gram, right, squares, derived, inflation: self.noise().inflation() }
     }
 }

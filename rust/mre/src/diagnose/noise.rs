@@ -32,6 +32,8 @@ struct Filter {
     coefficients: Vec<f64>,
     /// Inverse of the standard deviation of what cannot be predicted, 1/N.
     scale: f64,
+    /// Coefficients for each sample that they were estimated from.
+    density: f64,
 }
 
 impl Noise {
@@ -56,13 +58,16 @@ impl Noise {
                 .collect();
             let own: Vec<Choice> = alike.iter().map(|s| Choice::best(&[&products[*s]])).collect();
             let together = Choice::best(&alike.iter().map(|s| &products[*s]).collect::<Vec<_>>());
+            let of_alike: usize = alike.iter().map(|s| residuals[*s].len()).sum();
             let shared = together.criterion <= own.iter().map(|c| c.criterion).sum();
             for (k, s) in alike.iter().enumerate() {
                 let choice = if shared { &together } else { &own[k] };
                 let share = freedom as f64 * residuals[*s].len() as f64 / total as f64;
-                let members = if shared { alike.len() } else { 1 };
-                let used = share + choice.coefficients.len() as f64 / members as f64;
+                let (members, from) = if shared { (alike.len(), of_alike) } else { (1, residuals[*s].len()) };
+                let order = choice.coefficients.len() as f64;
+                let used = share + order / members as f64;
                 let (filter, gap) = Filter::of(&residuals[*s], steps[*s], choice, used, &left_out[*s]);
+                let filter = Filter { density: order / from as f64, ..filter };
                 (filters[*s], gaps[*s]) = (Some(filter), gap);
             }
         }
@@ -71,7 +76,7 @@ impl Noise {
 
     /// White noise of one size in N in all recordings.
     pub fn white(recordings: usize, deviation: f64) -> Self {
-        let filter = Filter { coefficients: Vec::new(), scale: 1.0 / deviation };
+        let filter = Filter { coefficients: Vec::new(), scale: 1.0 / deviation, density: 0.0 };
         Self { filters: vec![filter; recordings], gaps: vec![Gaps::none(); recordings], hidden: false }
     }
 
@@ -93,6 +98,13 @@ impl Noise {
         let mut gaps = self.gaps.clone();
         gaps.push(Gaps::none());
         Self { filters, gaps, hidden: self.hidden }
+    }
+
+    /// By what factor a gain by chance is larger than under a known noise: a spectrum that an autoregression of order
+    /// `p` gives from `n` samples is off by `sqrt(2 p / n)` of itself (Berk 1974), and its inverse too large on average.
+    pub(super) fn inflation(&self) -> f64 {
+        let densities = self.filters.iter().map(|filter| filter.density);
+        1.0 + 2.0 * densities.sum::<f64>() / self.filters.len().max(1) as f64
     }
 
     /// Number of samples lost at the start of a recording.
@@ -128,7 +140,7 @@ impl Filter {
         let variance = variance.max(1e-24 * floor).max(f64::MIN_POSITIVE);
         let scale = 1.0 / variance.sqrt();
         let whole = left_out.gaps(&coefficients, scale);
-        (Self { coefficients, scale }, whole)
+        (Self { coefficients, scale, density: 0.0 }, whole)
     }
 }
 

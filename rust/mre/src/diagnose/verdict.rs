@@ -68,8 +68,19 @@ pub struct Evidence {
     pub plain: bool,
     /// True where what is left hides the noise.
     pub hidden: bool,
-    /// True where a smooth force that no effect has explains more than the effects named.
-    pub surpassed: bool,
+    /// What speaks against the effects named, whatever they leave.
+    pub against: Against,
+}
+
+/// What speaks against the effects named, whatever they leave.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Against {
+    /// Nothing.
+    Nothing,
+    /// An effect fits only where its law ends.
+    AtTheEnd,
+    /// A smooth force that no effect has explains more.
+    Surpassed,
 }
 
 /// What a judgement is made of.
@@ -92,8 +103,8 @@ pub(super) struct Tests {
     pub(super) change: f64,
     /// Rms in N of the noise.
     pub(super) noise: f64,
-    /// True where a smooth force that no effect has explains more.
-    pub(super) surpassed: bool,
+    /// What speaks against the effects named.
+    pub(super) against: Against,
     /// True where no more is left than the rounding of the force.
     pub(super) nothing_left: bool,
 }
@@ -101,7 +112,7 @@ pub(super) struct Tests {
 impl Evidence {
     pub(super) fn new(tests: &Tests, named: &Named, plain: bool, false_alarm: f64) -> Self {
         let Tests { first, rest, smooth, wandering, odd, uneven, .. } = *tests;
-        let Tests { explained, change, noise, surpassed, nothing_left, .. } = *tests;
+        let Tests { explained, change, noise, against, nothing_left, .. } = *tests;
         let catalogue = by_effect(&named.scores);
         let holm = catalogue.iter().map(|(_, p)| *p).fold(1.0, f64::min) * catalogue.len() as f64;
         let of_places = wandering.p_value.min(odd.p_value);
@@ -121,7 +132,7 @@ impl Evidence {
             noise,
             plain,
             hidden: named.noise.hidden(),
-            surpassed,
+            against,
         }
     }
 
@@ -135,9 +146,10 @@ impl Evidence {
             (0, true) if hum => Verdict::PartlyExplained,
             (0, false) => Verdict::Adequate,
             (0, true) => Verdict::Unexplained,
-            _ if self.surpassed => Verdict::Unexplained,
+            _ if self.against == Against::Surpassed => Verdict::Unexplained,
             (_, true) if self.share > trusted && self.p_rest < BEYOND_CHANCE => Verdict::Unexplained,
             (_, true) if self.hidden || self.share > form => Verdict::PartlyExplained,
+            _ if self.against == Against::AtTheEnd => Verdict::PartlyExplained,
             (1, true) if !self.plain && self.plainly_inexact() => Verdict::PartlyExplained,
             _ => Verdict::MissingPhysics,
         }

@@ -117,9 +117,9 @@ impl<'a> Search<'_, 'a> {
         }
         let two = self.further(one, one.next.as_ref().filter(|next| moves(next))?)?;
         let both = self.improvement(here, &two)?;
-        let of_one = self.improvement(here, one)?.held_out;
         let least = LEAST_OF_NOISE * both.noise;
-        let each = of_one >= least && both.held_out - of_one >= least;
+        let enough = |improved: Option<Improvement>| improved.is_some_and(|i| i.held_out >= least);
+        let each = enough(self.improvement(here, one)) && enough(self.improvement(one, &two));
         (each && both.whole() && both.held_out >= LEAST_OF_FIRST * by_first).then_some(two)
     }
 

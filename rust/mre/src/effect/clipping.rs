@@ -10,7 +10,7 @@
 //! Communications, 1991, 179).
 //! Known limit: at one amplitude it is close to a softening spring.
 
-use super::{About, Effect, Scene, Sizes, order_within, within};
+use super::{About, Effect, Scene, Sizes, ideal_above, order_within, within};
 use crate::parameter::Parameter;
 
 /// A level on one side only is this many times as far on the other: beyond every measured force.
@@ -57,7 +57,7 @@ impl Effect for Clipping {
         match self {
             Self::Gradual => vec![
                 order_within("L", "N", 0.6 * sizes.force, 4.0 * sizes.force),
-                order_within("p", "1", 1.0, 30.0),
+                ideal_above(order_within("p", "1", 1.0, 30.0)),
             ],
             _ => vec![within("L", "N", 0.3 * sizes.force, sizes.force)],
         }

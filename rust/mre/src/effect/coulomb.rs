@@ -11,7 +11,7 @@
 //! Known limit: where all strokes are long against `z_y`, its value is not determined.
 
 use super::operators::{dahl, each};
-use super::{About, Effect, Scene, Sizes, order_within, positive};
+use super::{About, Effect, Scene, Sizes, ideal_below, order_within, positive};
 use crate::parameter::Parameter;
 
 /// How the sign of the velocity is smoothed.
@@ -46,10 +46,15 @@ impl Effect for Coulomb {
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
         match self {
             Self::Dahl => {
-                vec![order_within("z_y", "mm", 1e-4 * sizes.displacement, 0.05 * sizes.displacement)]
+                vec![ideal_below(order_within(
+                    "z_y",
+                    "mm",
+                    1e-4 * sizes.displacement,
+                    0.05 * sizes.displacement,
+                ))]
             }
             Self::Smoothed => {
-                vec![order_within("v_s", "mm/s", 1e-5 * sizes.velocity, 0.05 * sizes.velocity)]
+                vec![ideal_below(order_within("v_s", "mm/s", 1e-5 * sizes.velocity, 0.05 * sizes.velocity))]
             }
         }
     }

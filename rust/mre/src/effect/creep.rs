@@ -16,7 +16,7 @@
 //! Known limit: with a mean displacement and in one recording it cannot be told from drift.
 
 use super::maxwell::{branch, branches};
-use super::{About, Effect, Factors, Scene, Sizes, order_within, orders, positive, within};
+use super::{About, Effect, Factors, Scene, Sizes, ideal_below, order_within, orders, positive, within};
 use crate::parameter::Parameter;
 
 /// Relaxation times a decade in the spectrum.
@@ -101,7 +101,7 @@ impl Effect for Creep {
     }
 
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
-        let t_0 = order_within("t_0", "s", 2.0 * sizes.step, sizes.duration);
+        let t_0 = ideal_below(order_within("t_0", "s", 2.0 * sizes.step, sizes.duration));
         match self {
             Self::Logarithmic | Self::Box => vec![t_0],
             Self::Slow => {

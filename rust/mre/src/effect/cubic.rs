@@ -12,7 +12,7 @@
 //! Known limit: beside the sinh model it is absorbed almost wholly.
 
 use super::operators::each;
-use super::{About, Effect, Scene, Sizes, order_within, signed};
+use super::{About, Effect, Scene, Sizes, ideal_above, ideal_below, order_within, signed};
 use crate::parameter::Parameter;
 
 /// Largest `(x/L)^2` of limited extension; beyond it the force goes on along `x`.
@@ -71,9 +71,9 @@ impl Effect for OddElastic {
         let x = sizes.displacement;
         match self {
             Self::Cubic | Self::Quintic => Vec::new(),
-            Self::Sinh => vec![order_within("b", "1/mm", 0.3 / x, 6.0 / x)],
-            Self::Limited => vec![order_within("L", "mm", 1.02 * x, 4.0 * x)],
-            Self::Saturating => vec![order_within("x_s", "mm", 0.1 * x, 1.5 * x)],
+            Self::Sinh => vec![ideal_below(order_within("b", "1/mm", 0.3 / x, 6.0 / x))],
+            Self::Limited => vec![ideal_above(order_within("L", "mm", 1.02 * x, 4.0 * x))],
+            Self::Saturating => vec![ideal_above(order_within("x_s", "mm", 0.1 * x, 1.5 * x))],
         }
     }
 

@@ -13,7 +13,7 @@
 
 use super::operators::integral;
 use super::work::Work;
-use super::{About, Effect, Factors, Scene, Sizes, order_within, within};
+use super::{About, Effect, Factors, Scene, Sizes, ideal_above, order_within, within};
 use crate::parameter::Parameter;
 
 /// Names and equations by [`Form`], each on the stiffness and on the whole force.
@@ -128,7 +128,7 @@ impl Effect for Degradation {
                 Progress::Energy(_) => ("E_c", "N mm"),
             };
             let most = self.most(sizes);
-            shape.push(order_within(name, unit, 0.01 * most, 2.0 * most));
+            shape.push(ideal_above(order_within(name, unit, 0.01 * most, 2.0 * most)));
         }
         shape
     }

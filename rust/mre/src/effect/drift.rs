@@ -11,7 +11,7 @@
 use std::f64::consts::PI;
 use std::ops::RangeInclusive;
 
-use super::{About, Effect, Scene, Sizes, order_within, signed};
+use super::{About, Effect, Scene, Sizes, ideal_above, order_within, signed};
 use crate::parameter::Parameter;
 
 /// Half-cosines over a recording that make a drift.
@@ -89,7 +89,7 @@ impl Effect for Drift {
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
         match self {
             Self::Decaying => {
-                vec![order_within("tau_d", "s", 0.03 * sizes.duration, 2.0 * sizes.duration)]
+                vec![ideal_above(order_within("tau_d", "s", 0.03 * sizes.duration, 2.0 * sizes.duration))]
             }
             Self::Constant | Self::Linear | Self::Offset | Self::Slow => Vec::new(),
         }

@@ -11,7 +11,7 @@
 //! Known limit: without at least three levels of the current it cannot be seen.
 
 use super::remanence::following;
-use super::{About, Effect, Factors, Scene, Sizes, order_within, signed, within};
+use super::{About, Effect, Factors, Scene, Sizes, ideal_above, order_within, signed, within};
 use crate::parameter::Parameter;
 
 /// How the parameters leave the affine law.
@@ -106,7 +106,7 @@ impl Effect for FieldDependence {
 
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
         let span = sizes.current_span();
-        let saturation = order_within("I_s", "A", 0.1 * span, 2.0 * span);
+        let saturation = ideal_above(order_within("I_s", "A", 0.1 * span, 2.0 * span));
         let share = within("s", "", -6.0, 0.95);
         match self {
             Self::Square => Vec::new(),

@@ -12,7 +12,7 @@
 //! Known limit: the lag of the coil and that of its controller are one.
 
 use super::smooth_lag::{smooth_lag, smooth_ringing};
-use super::{About, Effect, Scene, Sizes, order_within, within};
+use super::{About, Effect, Scene, Sizes, ideal_above, order_within, within};
 use crate::parameter::Parameter;
 
 /// Time constants that a fit starts from, s.
@@ -76,7 +76,7 @@ impl Effect for FieldLag {
             Self::One | Self::Twice => vec![tau("tau_i")],
             Self::Ringing => vec![
                 Parameter { smallest: SHORTEST, ..tau("tau_i") },
-                Parameter { smallest: 0.0, largest: 0.99, ..within("zeta", "", 0.3, 0.95) },
+                ideal_above(Parameter { smallest: 0.0, largest: 0.99, ..within("zeta", "", 0.3, 0.95) }),
             ],
             Self::RiseAndFall => vec![tau("tau_u"), tau("tau_d")],
         }

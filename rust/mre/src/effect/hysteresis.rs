@@ -15,7 +15,7 @@
 //! Known limit: yields below 5 % of the stroke are friction; above the stroke, they are stiffness.
 
 use super::operators::stop;
-use super::{About, Effect, Scene, Sizes, order_within, orders, positive, within};
+use super::{About, Effect, Scene, Sizes, ideal_above, ideal_below, order_within, orders, positive, within};
 use crate::kernel::hysteretic;
 use crate::parameter::{Parameter, Scale};
 
@@ -97,13 +97,16 @@ impl Effect for Hysteresis {
         match self {
             Self::BoucWen => vec![
                 order_within("rho", "1/mm", 1.0 / (3.0 * x), 20.0 / x),
-                within("sigma", "", 0.5, 2.0),
-                Parameter { scale: Scale::Log, ..within("n", "", 1.0, 5.0) },
+                ideal_below(within("sigma", "", 0.5, 2.0)),
+                ideal_above(ideal_below(Parameter { scale: Scale::Log, ..within("n", "", 1.0, 5.0) })),
             ],
             Self::Jenkins => vec![order_within("r", "mm", 0.05 * x, 0.9 * x)],
             Self::Iwan => vec![order_within("r_max", "mm", 0.1 * x, 3.0 * x)],
             Self::PowerIwan => {
-                vec![order_within("r_max", "mm", 0.1 * x, 3.0 * x), order_within("q", "", 0.2, 4.0)]
+                vec![
+                    order_within("r_max", "mm", 0.1 * x, 3.0 * x),
+                    ideal_above(order_within("q", "", 0.2, 4.0)),
+                ]
             }
         }
     }

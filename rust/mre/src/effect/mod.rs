@@ -60,7 +60,7 @@ pub use scene::{Acceleration, Scene, Sizes};
 
 use std::ops::RangeInclusive;
 
-use crate::parameter::{Parameter, Scale};
+use crate::parameter::{Ideal, Parameter, Scale};
 
 /// What is known about a law.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -113,6 +113,12 @@ pub trait Effect: Send + Sync {
     /// Values of the nonlinear parameters from which a fit starts: enough of them that a real effect is
     /// nearly as visible at one of them as at its best.
     fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>>;
+
+    /// The parameter without which the law is that of another effect: a coefficient at zero, or a shape at its lower
+    /// bound.
+    fn own(&self) -> Option<&'static str> {
+        None
+    }
 
     /// Columns added to the force, each times its coefficient.
     fn columns(&self, scene: &Scene, shape: &[f64]) -> Vec<Vec<f64>> {
@@ -220,13 +226,25 @@ pub(crate) fn signed(name: &str, unit: &'static str) -> Parameter {
         lower: f64::NEG_INFINITY,
         upper: f64::INFINITY,
         scale: Scale::Linear,
+        ideal: Ideal::default(),
     }
 }
 
 /// A shape within a box, spread evenly.
 pub(crate) fn within(name: &str, unit: &'static str, lower: f64, upper: f64) -> Parameter {
     let (smallest, largest) = (f64::NEG_INFINITY, f64::INFINITY);
-    Parameter { name: name.into(), unit, smallest, largest, lower, upper, scale: Scale::Linear }
+    let (scale, ideal) = (Scale::Linear, Ideal::default());
+    Parameter { name: name.into(), unit, smallest, largest, lower, upper, scale, ideal }
+}
+
+/// The same, the law being an ideal of its own at the lower bound.
+pub(crate) fn ideal_below(p: Parameter) -> Parameter {
+    Parameter { ideal: Ideal { lower: true, ..p.ideal }, ..p }
+}
+
+/// The same, the law being an ideal of its own at the upper bound.
+pub(crate) fn ideal_above(p: Parameter) -> Parameter {
+    Parameter { ideal: Ideal { upper: true, ..p.ideal }, ..p }
 }
 
 /// A positive shape of unknown order of magnitude within a box.

@@ -16,7 +16,7 @@
 //! Known limit: without a slip it is hysteresis.
 
 use super::hysteresis::bouc_wen;
-use super::{About, Effect, Scene, Sizes, order_within, orders, positive, within};
+use super::{About, Effect, Scene, Sizes, ideal_below, order_within, orders, positive, within};
 use crate::parameter::Parameter;
 
 /// Exponent of the yield.
@@ -156,7 +156,7 @@ impl Effect for Pinched {
                     rho,
                     within("zeta_1", "", 0.1, 0.97),
                     within("zeta_2", "", 0.1, 0.8),
-                    within("q", "", 0.0, 0.5),
+                    ideal_below(within("q", "", 0.0, 0.5)),
                 ]
             }
             Self::ByPlace => {
@@ -173,6 +173,13 @@ impl Effect for Pinched {
             Self::ByPlace => [0.12, 0.3].map(|width| vec![rho, 0.6, width * x]),
         };
         yields.flat_map(widths).collect()
+    }
+
+    fn own(&self) -> Option<&'static str> {
+        Some(match self {
+            Self::ByForce => "zeta_1",
+            Self::ByPlace => "s",
+        })
     }
 
     fn columns(&self, scene: &Scene, shape: &[f64]) -> Vec<Vec<f64>> {

@@ -10,7 +10,7 @@
 //! Known limit: on the stiffness and without a shift it is an odd elastic law.
 
 use super::operators::sign;
-use super::{About, Effect, Factors, Scene, Sizes, order_within, within};
+use super::{About, Effect, Factors, Scene, Sizes, ideal_below, order_within, within};
 use crate::parameter::Parameter;
 
 /// A law of pinching.
@@ -47,7 +47,7 @@ impl Effect for Pinching {
         let x = sizes.displacement;
         let mut shape = vec![within("s", "", 0.0, 0.95), order_within("w", "mm", 0.05 * x, 0.6 * x)];
         if self.shifted {
-            shape.push(within("x_s", "mm", 0.0, 0.5 * x));
+            shape.push(ideal_below(within("x_s", "mm", 0.0, 0.5 * x)));
         }
         shape
     }

@@ -10,7 +10,7 @@
 //! Known limit: at one steady sine it cannot be told from friction or hysteresis.
 
 use super::operators::{each, sign};
-use super::{About, Effect, Scene, Sizes, order_within, positive, within};
+use super::{About, Effect, Scene, Sizes, ideal_above, order_within, positive, within};
 use crate::parameter::Parameter;
 
 /// Form of the damping law.
@@ -57,7 +57,7 @@ impl Effect for QuadraticDamping {
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
         match self {
             Self::Square => Vec::new(),
-            Self::Power => vec![within("p", "", 0.2, 3.0)],
+            Self::Power => vec![ideal_above(within("p", "", 0.2, 3.0))],
             Self::Eyring => vec![order_within("v_e", "mm/s", 0.03 * sizes.velocity, sizes.velocity)],
         }
     }

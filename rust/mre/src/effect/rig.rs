@@ -11,7 +11,7 @@
 //! Known limit: for a linear device it is part of k0 and c0.
 
 use super::operators::{each, lag, slope};
-use super::{About, Effect, Motion, Scene, Sizes, order_within, within};
+use super::{About, Effect, Motion, Scene, Sizes, ideal_below, order_within, within};
 use crate::parameter::Parameter;
 
 /// How the rig gives way.
@@ -65,7 +65,7 @@ impl Effect for Rig {
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
         let mut shape = vec![within("f_r", "mm/N", 0.0, 0.5 * sizes.displacement / sizes.force)];
         if *self == Self::Viscoelastic {
-            shape.push(order_within("t_r", "s", 0.2 * sizes.step, 0.5 * sizes.duration));
+            shape.push(ideal_below(order_within("t_r", "s", 0.2 * sizes.step, 0.5 * sizes.duration)));
         }
         shape
     }

@@ -11,7 +11,7 @@
 //! The time that the change takes lets a fit find the moment.
 //! Known limit: near the end of a recording only a large jump can be seen.
 
-use super::{About, Effect, Factors, Scene, Sizes, order_within, within};
+use super::{About, Effect, Factors, Scene, Sizes, ideal_below, order_within, within};
 use crate::parameter::Parameter;
 
 /// Moments from which a fit starts.
@@ -60,7 +60,7 @@ impl Effect for StiffnessJump {
         vec![
             within("s", "", -0.9, 0.95),
             within("t_0", "s", 0.0, sizes.total),
-            order_within("t_r", "s", sizes.step, longest(sizes)),
+            ideal_below(order_within("t_r", "s", sizes.step, longest(sizes))),
         ]
     }
 

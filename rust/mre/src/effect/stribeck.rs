@@ -106,6 +106,10 @@ impl Effect for Stribeck {
         falls.iter().flat_map(|fall| SHARP.map(|share| vec![*fall, share * size])).collect()
     }
 
+    fn own(&self) -> Option<&'static str> {
+        Some("F_b")
+    }
+
     fn columns(&self, scene: &Scene, shape: &[f64]) -> Vec<Vec<f64>> {
         let side = self.plain().columns(scene, &shape[1..]).swap_remove(0);
         let excess =

@@ -13,7 +13,7 @@
 
 use super::operators::lag;
 use super::work::Work;
-use super::{About, Effect, Factors, Scene, Sizes, order_within, orders, within};
+use super::{About, Effect, Factors, Scene, Sizes, ideal_above, order_within, orders, within};
 use crate::parameter::Parameter;
 
 /// Range of the time over which a device cools, s.
@@ -78,7 +78,7 @@ impl Effect for Thermal {
     }
 
     fn shape(&self, _: &Sizes) -> Vec<Parameter> {
-        vec![within("s", "", 0.0, 3.0), order_within("tau", "s", COOLING.0, COOLING.1)]
+        vec![within("s", "", 0.0, 3.0), ideal_above(order_within("tau", "s", COOLING.0, COOLING.1))]
     }
 
     fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {

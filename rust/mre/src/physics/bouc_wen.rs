@@ -20,7 +20,7 @@ use super::{Part, Term};
 use crate::extent::Extent;
 use crate::kernel::hysteretic;
 use crate::kernel::hysteretic_traces::{Motion, traces};
-use crate::parameter::{Parameter, Scale};
+use crate::parameter::{Ideal, Parameter, Scale};
 use crate::recording::Recording;
 
 /// Largest `|v| dt rho n max(1, 2 sigma - 1)` in a step of RK4. It is unstable from about 2.8.
@@ -44,6 +44,7 @@ impl Term for BoucWen {
             lower: 0.0,
             upper: 1.5 * extent.force,
             scale: Scale::Linear,
+            ideal: Ideal::default(),
         }
     }
 
@@ -56,6 +57,7 @@ impl Term for BoucWen {
             lower,
             upper,
             scale,
+            ideal: Ideal::default(),
         };
         // Yield displacements from five strokes down to 1 % of the longest, or 5 % of the shortest.
         let sharpest = (100.0 / extent.displacement).max(20.0 / extent.shortest);

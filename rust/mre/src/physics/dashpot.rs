@@ -9,7 +9,7 @@
 
 use super::{Part, Term};
 use crate::extent::Extent;
-use crate::parameter::{Parameter, Scale};
+use crate::parameter::{Ideal, Parameter, Scale};
 use crate::recording::Recording;
 
 /// Linear viscous damping.
@@ -30,6 +30,7 @@ impl Term for Dashpot {
             lower: 0.0,
             upper: 1.5 * extent.force / extent.velocity,
             scale: Scale::Linear,
+            ideal: Ideal::default(),
         }
     }
 

@@ -9,7 +9,7 @@
 
 use super::{Part, Term};
 use crate::extent::Extent;
-use crate::parameter::{Parameter, Scale};
+use crate::parameter::{Ideal, Parameter, Scale};
 use crate::recording::Recording;
 
 /// Constant force.
@@ -31,6 +31,7 @@ impl Term for Offset {
             lower: extent.offset - width,
             upper: extent.offset + width,
             scale: Scale::Linear,
+            ideal: Ideal::default(),
         }
     }
 

@@ -11,7 +11,7 @@
 use super::Term;
 use crate::extent::Extent;
 use crate::kernel::elementary;
-use crate::parameter::{Parameter, Scale};
+use crate::parameter::{Ideal, Parameter, Scale};
 use crate::recording::Recording;
 
 /// Largest `|beta x|`: beyond, sinh overflows.
@@ -31,6 +31,7 @@ impl Term for Sinh {
             lower: if extent.softens { -2.0 * extent.force } else { 0.0 },
             upper: if extent.softens { 0.0 } else { 2.0 * extent.force },
             scale: Scale::Linear,
+            ideal: Ideal::default(),
         }
     }
 
@@ -43,6 +44,7 @@ impl Term for Sinh {
             lower: 0.05 / extent.displacement,
             upper: 3.0 / extent.displacement,
             scale: Scale::Linear,
+            ideal: Ideal::default(),
         }]
     }
 

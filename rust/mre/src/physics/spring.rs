@@ -9,7 +9,7 @@
 
 use super::Term;
 use crate::extent::Extent;
-use crate::parameter::{Parameter, Scale};
+use crate::parameter::{Ideal, Parameter, Scale};
 use crate::recording::Recording;
 
 /// Linear stiffness under the name it has in its model.
@@ -30,6 +30,7 @@ impl Term for Spring {
             // Beside a softening term the spring alone is steeper than the whole.
             upper: if extent.softens { 4.0 } else { 1.5 } * extent.force / extent.displacement,
             scale: Scale::Linear,
+            ideal: Ideal::default(),
         }
     }
 
