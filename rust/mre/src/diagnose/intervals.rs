@@ -2,7 +2,6 @@
 
 use nalgebra::DMatrix;
 
-use super::exchange::CLEAR;
 use super::least_squares::Data;
 use super::point::Point;
 use crate::assembly::Assembly;
@@ -94,7 +93,7 @@ pub(super) fn estimates(assembly: &Assembly, data: Data, unit: &[f64]) -> Estima
             let on_end = (unit[j] <= 0.0 && !p.ideal.lower) || (unit[j] >= 1.0 && !p.ideal.upper);
             let slope = system.right[first + j].abs();
             let cost = 2.0 * INWARD * slope + (INWARD / deviation(first + j)).powi(2);
-            let pressed = on_end && cost > CLEAR;
+            let pressed = on_end && cost > WIDTH.powi(2);
             Estimate { name: p.name.clone(), unit: p.unit, value, low: low.max(p.smallest), high, pressed }
         })
         .collect();
