@@ -228,7 +228,7 @@ def test_the_units_of_the_box_do_not_matter(
 
 
 @steady
-@given(swarms, seeds, st.sampled_from([np.nan, np.inf]))
+@given(swarms, seeds, st.sampled_from([np.nan, np.inf, -np.inf]))
 def test_a_cost_that_always_fails_gives_no_nan(chosen: AnySettings, seed: int, fails: float) -> None:
     swarm = compiled(chosen, seed, UNIT)
     asked, _ = lead(swarm, lambda rows: np.full(len(rows), fails))

@@ -150,7 +150,7 @@ def test_equally_fed_fish_only_search() -> None:
         assert behaviours == {"search": 0, "swarm": 0, "follow": 0, "random": 9 * 20}
 
 
-@pytest.mark.parametrize("fails", [np.nan, np.inf])
+@pytest.mark.parametrize("fails", [np.nan, np.inf, -np.inf])
 @pytest.mark.parametrize("search", ["best", "step"])
 def test_fish_without_any_food(search: str, fails: float) -> None:
     def cost(rows: Array) -> Array:

@@ -43,28 +43,37 @@ fn points_of_the_box_cost_what_their_parameters_cost() {
 }
 
 fn swarm(search: Search) -> FishSwarm {
-    FishSwarm::new(FishSettings { search, ..mafsa(20) }, 5, 1, None).unwrap()
+    in_a_box_of(5, search)
+}
+
+fn in_a_box_of(dimension: usize, search: Search) -> FishSwarm {
+    FishSwarm::new(FishSettings { search, ..mafsa(20) }, dimension, 1, None).unwrap()
 }
 
 /// Where a swarm has come to.
 fn swim(mut swarm: FishSwarm, fitness: &mut dyn Fitness) -> (Vec<f64>, History) {
-    run(&mut swarm, fitness, 5, &Budget::default(), &mut |_| true);
+    let dimension = swarm.bulletin().position.len();
+    run(&mut swarm, fitness, dimension, &Budget::default(), &mut |_| true);
     (swarm.bulletin().position.clone(), swarm.history().clone())
 }
 
 #[test]
 fn fish_swim_the_same_on_any_number_of_threads() {
-    let problem = example("sinh");
     let never = AtomicBool::new(false);
-    let mut one_after_the_other =
-        |rows: &[f64], costs: &mut [f64]| problem.fitness_in_box(rows, costs, &never);
-    for search in [Search::Best, Search::Step] {
-        let drawn_first = swim(swarm(search), &mut one_after_the_other);
-        let mut fitness = OfProblem { problem: &problem, cancel: &never };
-        assert_eq!(swim(swarm(search), &mut fitness), drawn_first, "{search:?}, outside a pool");
-        for threads in [1, 2, 3, 8] {
-            let found = with_threads(threads, || swim(swarm(search), &mut fitness));
-            assert_eq!(found, drawn_first, "{search:?}, {threads} threads");
+    // Both have points that threads share: by a kernel of its own, and term by term.
+    for model in ["sinh", "kelvin_voigt"] {
+        let problem = example(model);
+        let new = |search| in_a_box_of(problem.bounds().len(), search);
+        let mut one_after_the_other =
+            |rows: &[f64], costs: &mut [f64]| problem.fitness_in_box(rows, costs, &never);
+        for search in [Search::Best, Search::Step] {
+            let drawn_first = swim(new(search), &mut one_after_the_other);
+            let mut fitness = OfProblem { problem: &problem, cancel: &never };
+            assert_eq!(swim(new(search), &mut fitness), drawn_first, "{model}, {search:?}, outside a pool");
+            for threads in [1, 2, 3, 8] {
+                let found = with_threads(threads, || swim(new(search), &mut fitness));
+                assert_eq!(found, drawn_first, "{model}, {search:?}, {threads} threads");
+            }
         }
     }
 }

@@ -229,7 +229,7 @@ impl Swarm for FishSwarm {
         }
         let mut known = std::mem::take(&mut self.known);
         known.clear();
-        known.extend(costs.iter().map(|c| if c.is_nan() { f64::INFINITY } else { *c }));
+        known.extend(costs.iter().map(|c| if c.is_finite() { *c } else { f64::INFINITY }));
         self.bulletin.note(self.asked.rows(), &known);
         if let Stage::Hatch = self.stage {
             self.costs.copy_from_slice(&known);

@@ -96,7 +96,7 @@ impl Swarm for ParticleSwarm {
     fn tell(&mut self, costs: &[f64]) {
         let mut known = std::mem::take(&mut self.known);
         known.clear();
-        known.extend(costs.iter().map(|c| if c.is_nan() { f64::INFINITY } else { *c }));
+        known.extend(costs.iter().map(|c| if c.is_finite() { *c } else { f64::INFINITY }));
         self.bulletin.note(&self.positions, &known);
         for (particle, cost) in known.iter().enumerate() {
             if *cost < self.best_costs[particle] {
