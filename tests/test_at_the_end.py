@@ -1,8 +1,9 @@
 """A name whose law fits only at the end of its range is not the whole answer."""
 
 import mre_core
+import numpy as np
 import pytest
-from missing import campaign
+from missing import campaign, with_series
 
 
 @pytest.fixture(scope="module")
@@ -31,3 +32,25 @@ def test_a_law_within_its_range_is() -> None:
     found = mre_core.diagnose(campaign(), seed=1)
     assert found.verdict == "missing_physics"
     assert [e.at_the_end for e in found.effects] == [()]
+
+
+def test_a_part_that_cannot_be_told_from_nothing_is() -> None:
+    """Friction without an excess at rest is a Stribeck friction only where no other may be named."""
+
+    def rubbed(r: mre_core.Recording) -> mre_core.Recording:
+        return with_series(r, force=np.asarray(r.force) + 3.0 * np.tanh(r.velocity / 0.05))
+
+    found = mre_core.diagnose([rubbed(r) for r in campaign(0.0)], seed=1, without=["coulomb_friction"])
+    assert found.verdict == "partly_explained"
+    assert ("stribeck_friction", ("F_b",)) in [(e.id, e.at_the_end) for e in found.effects]
+
+
+def test_an_ideal_end_is_no_end() -> None:
+    """A sign as sharp as it may be is dry friction."""
+
+    def rubbed(r: mre_core.Recording) -> mre_core.Recording:
+        return with_series(r, force=np.asarray(r.force) + 3.0 * np.sign(r.velocity))
+
+    found = mre_core.diagnose([rubbed(r) for r in campaign(0.0)], seed=1)
+    assert found.verdict == "missing_physics"
+    assert [(e.id, e.at_the_end) for e in found.effects] == [("coulomb_friction", ())]

@@ -152,6 +152,7 @@ def test_all_of_a_diagnosis_is_shown() -> None:
         "not determined",
         "about 3.4 % of the force's rms is left",
         "cannot tell it from fractional_viscoelasticity",
+        "not to be told from nothing: tau",
         "3.1 N without it and 1 N with it",
         "p-value below 1e-300",
         "In 'sine' around 0.65 s: something.",

@@ -85,8 +85,8 @@ def _exchanged(trial: Trial, made: Campaign, named: tuple[str, ...]) -> bool:
     every = mre_core.diagnose(
         recordings_of(made), trial.case.base, seed=1, false_alarm=trial.false_alarm, threads=1
     )
-    said = {one for effect in every.effects for one in (effect.id, *effect.indistinguishable_from)}
-    return {*named, *trial.case.effects} <= said
+    exchangeable = ({effect.id, *effect.indistinguishable_from} for effect in every.effects)
+    return any({*named, *trial.case.effects} <= one for one in exchangeable)
 
 
 def recordings_of(made: Campaign) -> list[Recording]:

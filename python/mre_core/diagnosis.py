@@ -146,11 +146,12 @@ class Diagnosis:
 
     def __str__(self) -> str:
         named = [e.id for e in self.effects]
-        if self.verdict is None or not isfinite(self.fit.held_out_rms_after):
-            return words.broken_off(self.verdict, self.base, named)
         ends = {e.id: e.at_the_end for e in self.effects if e.at_the_end}
-        whole = bool(ends) and not any(e.lack_of_fit for e in self.effects)
-        told = [words.verdict("nearest" if whole else self.verdict, self.base, named, asdict(self.fit))]
+        whole = bool(ends) and self.p_values.get("rest", 0.0) > self.false_alarm
+        said = "nearest" if whole else self.verdict
+        if said is None or not isfinite(self.fit.held_out_rms_after):
+            return words.broken_off(said, self.base, named)
+        told = [words.verdict(said, self.base, named, asdict(self.fit))]
         if ends:
             told.append(words.at_the_end(ends))
         if self.refitted is not None:

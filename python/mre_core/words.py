@@ -62,6 +62,7 @@ def broken_off(kind: str | None, base: str, effects: Sequence[str]) -> str:
         "adequate": "it explains the recordings down to their noise",
         "missing_physics": f"it leaves out {listed(effects)}",
         "partly_explained": f"it leaves out {listed(effects)}, and more that nothing known explains",
+        "nearest": f"it leaves out what {listed(effects)} comes nearest to",
         "unexplained": "it misses something that no effect of the catalogue explains",
     }[kind]
     return f"Interrupted after the verdict on {model}: {stands}; not yet proved on held-out data."

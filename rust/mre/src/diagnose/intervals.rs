@@ -90,10 +90,15 @@ pub(super) fn estimates(assembly: &Assembly, data: Data, unit: &[f64]) -> Estima
                     (value / factor, value * factor)
                 }
             };
-            let on_end = (unit[j] <= 0.0 && !p.ideal.lower) || (unit[j] >= 1.0 && !p.ideal.upper);
-            let slope = system.right[first + j].abs();
-            let cost = 2.0 * INWARD * slope + (INWARD / deviation(first + j)).powi(2);
-            let pressed = on_end && cost > WIDTH.powi(2);
+            // Outwards the sum of squares falls at this rate.
+            let outward = match unit[j] {
+                u if u <= 0.0 && !p.ideal.lower => Some(-system.right[first + j]),
+                u if u >= 1.0 && !p.ideal.upper => Some(system.right[first + j]),
+                _ => None,
+            };
+            let deviation = deviation(first + j);
+            let cost = |slope: f64| 2.0 * INWARD * slope.max(0.0) + (INWARD / deviation).powi(2);
+            let pressed = outward.is_some_and(|slope| deviation > 0.0 && cost(slope) > WIDTH.powi(2));
             Estimate { name: p.name.clone(), unit: p.unit, value, low: low.max(p.smallest), high, pressed }
         })
         .collect();

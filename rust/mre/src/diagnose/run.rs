@@ -56,9 +56,9 @@ pub fn run<'a>(
     let alone = Null::new(&begun.assembly, data, &base_fit.unit);
     let places = monitor
         .stage(Stage::Location, || alone.as_ref().map_or_else(Vec::new, |n| locate(n, settings.false_alarm)));
-    // Where no more is left, there is nothing to describe.
-    let left = evidence.approximate();
-    let unknown = if left { describe(verdict, alone.as_ref(), &named, data) } else { None };
+    // Where effects leave no more, there is nothing to describe.
+    let whole = verdict == Verdict::PartlyExplained && !evidence.approximate();
+    let unknown = if whole { None } else { describe(verdict, alone.as_ref(), &named, data) };
     let absorbed = monitor.stage(Stage::Identifiability, || absorbed(&named, campaign, settings.false_alarm));
     let absorbed = absorbed.unwrap_or_default();
     let mut nearest = Vec::new();

@@ -6,6 +6,7 @@ use super::intervals::{Estimate, Estimates, estimates};
 use super::least_squares::Data;
 use super::search::Named;
 use crate::assembly::Assembly;
+use crate::parameter::Parameter;
 
 /// True where one of the effects at these places does.
 pub(super) fn any_strained(named: &Named, data: Data, mut places: Range<usize>) -> bool {
@@ -19,12 +20,18 @@ pub(super) fn any_strained(named: &Named, data: Data, mut places: Range<usize>) 
 /// Symbols of an effect's parameters that the recordings press to the end of their range, or without which the law is
 /// that of another effect and which cannot be told from nothing.
 pub fn strained<'e>(assembly: &Assembly, estimates: &'e Estimates, place: usize) -> Vec<&'e str> {
+    let effect = assembly.effects()[place];
+    // A hum goes on whatever moves: it stands for no other effect.
+    if !effect.follows_the_motion() {
+        return Vec::new();
+    }
     let (coefficients, shapes) = assembly.of_effect(place);
-    let own = assembly.effects()[place].own();
-    let nothing = |e: &Estimate, none: f64| own == Some(e.name.as_str()) && e.low <= none;
+    let nothing = |e: &Estimate, none: f64| effect.own() == Some(e.name.as_str()) && e.low <= none;
     let absent = estimates.coefficients[coefficients].iter().filter(|e| nothing(e, 0.0));
     let boxes = &assembly.shapes()[shapes.clone()];
     let ends = estimates.shapes[shapes].iter().zip(boxes);
-    let at_the_end = ends.filter(|(e, p)| e.pressed || nothing(e, p.lower)).map(|(e, _)| e);
-    absent.chain(at_the_end).map(|e| e.name.as_str()).collect()
+    // The interval of one at its end is open on both sides: as much of it as there can be is not nothing.
+    let shapeless =
+        |(e, p): &(&Estimate, &Parameter)| e.pressed || (e.value < p.upper && nothing(e, p.lower));
+    absent.chain(ends.filter(shapeless).map(|(e, _)| e)).map(|e| e.name.as_str()).collect()
 }

@@ -16,7 +16,7 @@
 use std::f64::consts::PI;
 
 use super::maxwell::branches;
-use super::{About, Effect, Scene, Sizes, order_within, orders, positive, within};
+use super::{About, Effect, Scene, Sizes, ideal_below, order_within, orders, positive, within};
 use crate::parameter::Parameter;
 
 /// Spacing of the rates, in their natural logarithm, for a springpot: the rule is then exact to 2e-4.
@@ -108,7 +108,10 @@ impl Effect for Fractional {
         match self {
             Self::Springpot => vec![within("a", "", 0.05, 0.95)],
             Self::Maxwell => {
-                vec![within("a", "", 0.05, 0.85), order_within("tau", "s", 2.0 * sizes.step, sizes.duration)]
+                vec![
+                    within("a", "", 0.05, 0.85),
+                    ideal_below(order_within("tau", "s", 2.0 * sizes.step, sizes.duration)),
+                ]
             }
         }
     }

@@ -15,7 +15,7 @@
 //! from it).
 //! Known limit: after the first cycle at a constant amplitude it is part of k0.
 
-use super::{About, Effect, Factors, Scene, Sizes, ideal_below, order_within, within};
+use super::{About, Effect, Factors, Scene, Sizes, ideal_above, ideal_below, order_within, within};
 use crate::parameter::Parameter;
 
 /// What the softening follows.
@@ -95,9 +95,12 @@ impl Effect for Mullins {
         let mut shape = vec![within("s", "", 0.0, 0.95)];
         shape.extend(match self.by {
             Softening::PseudoElastic => {
-                vec![order_within("x_m", "mm", 0.03 * x, 1.5 * x), ideal_below(within("b", "", 0.0, 1.0))]
+                vec![
+                    ideal_above(order_within("x_m", "mm", 0.03 * x, 1.5 * x)),
+                    ideal_below(within("b", "", 0.0, 1.0)),
+                ]
             }
-            Softening::Largest => vec![order_within("x_c", "mm", 0.03 * x, 2.0 * x)],
+            Softening::Largest => vec![ideal_above(order_within("x_c", "mm", 0.03 * x, 2.0 * x))],
             Softening::Power => vec![order_within("p", "", 0.3, 4.0)],
             Softening::Distance => {
                 vec![ideal_below(within("a", "", 0.0, 2.0)), order_within("p", "", 0.3, 4.0)]

@@ -16,7 +16,7 @@
 //! Known limit: without a slip it is hysteresis.
 
 use super::hysteresis::bouc_wen;
-use super::{About, Effect, Scene, Sizes, ideal_below, order_within, orders, positive, within};
+use super::{About, Effect, Scene, Sizes, ideal_above, ideal_below, order_within, orders, positive, within};
 use crate::parameter::Parameter;
 
 /// Exponent of the yield.
@@ -154,13 +154,17 @@ impl Effect for Pinched {
             Self::ByForce => {
                 vec![
                     rho,
-                    within("zeta_1", "", 0.1, 0.97),
+                    ideal_above(within("zeta_1", "", 0.1, 0.97)),
                     within("zeta_2", "", 0.1, 0.8),
                     ideal_below(within("q", "", 0.0, 0.5)),
                 ]
             }
             Self::ByPlace => {
-                vec![rho, within("s", "", 0.1, 0.97), order_within("w_x", "mm", 0.05 * x, 0.6 * x)]
+                vec![
+                    rho,
+                    ideal_above(within("s", "", 0.1, 0.97)),
+                    order_within("w_x", "mm", 0.05 * x, 0.6 * x),
+                ]
             }
         }
     }

@@ -10,7 +10,7 @@
 //! Known limit: on the stiffness and without a shift it is an odd elastic law.
 
 use super::operators::sign;
-use super::{About, Effect, Factors, Scene, Sizes, ideal_below, order_within, within};
+use super::{About, Effect, Factors, Scene, Sizes, ideal_above, ideal_below, order_within, within};
 use crate::parameter::Parameter;
 
 /// A law of pinching.
@@ -45,7 +45,8 @@ impl Effect for Pinching {
 
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
         let x = sizes.displacement;
-        let mut shape = vec![within("s", "", 0.0, 0.95), order_within("w", "mm", 0.05 * x, 0.6 * x)];
+        let mut shape =
+            vec![ideal_above(within("s", "", 0.0, 0.95)), order_within("w", "mm", 0.05 * x, 0.6 * x)];
         if self.shifted {
             shape.push(ideal_below(within("x_s", "mm", 0.0, 0.5 * x)));
         }

@@ -58,7 +58,9 @@ impl Effect for QuadraticDamping {
         match self {
             Self::Square => Vec::new(),
             Self::Power => vec![ideal_above(within("p", "", 0.2, 3.0))],
-            Self::Eyring => vec![order_within("v_e", "mm/s", 0.03 * sizes.velocity, sizes.velocity)],
+            Self::Eyring => {
+                vec![ideal_above(order_within("v_e", "mm/s", 0.03 * sizes.velocity, sizes.velocity))]
+            }
         }
     }
 

@@ -14,7 +14,7 @@
 //! Known limit: at speeds above three times `v_s` it is Coulomb friction.
 
 use super::coulomb::Coulomb;
-use super::{About, Effect, Scene, Sizes, order_within, positive};
+use super::{About, Effect, Scene, Sizes, ideal_below, order_within, positive};
 use crate::parameter::Parameter;
 
 /// Sharpness of the sign from which a fit starts, as shares of the largest stroke or speed.
@@ -94,7 +94,7 @@ impl Effect for Stribeck {
     }
 
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
-        let fall = order_within("v_s", "mm/s", 0.005 * sizes.velocity, 0.6 * sizes.velocity);
+        let fall = ideal_below(order_within("v_s", "mm/s", 0.005 * sizes.velocity, 0.6 * sizes.velocity));
         let sign = self.plain().shape(sizes).into_iter();
         let sign = sign.map(|p| if self.rests { Parameter { name: "v_0".into(), ..p } } else { p });
         std::iter::once(fall).chain(sign).collect()

@@ -107,6 +107,17 @@ fn laws_of_an_effect_stand_together() {
 }
 
 #[test]
+fn what_makes_a_law_this_effect_is_one_of_its_parameters() {
+    let stage = stage(1, 4.0);
+    for effect in CATALOGUE.iter().filter(|e| e.own().is_some()) {
+        let coefficients = effect.coefficients().into_iter().filter(|p| p.smallest == 0.0);
+        let named =
+            coefficients.chain(effect.shape(&stage.sizes)).any(|p| Some(p.name.as_str()) == effect.own());
+        assert!(named, "{:?}", effect.about());
+    }
+}
+
+#[test]
 fn starts_lie_in_their_boxes() {
     for amplitude in [1e-3, 4.0, 300.0] {
         let stage = stage(1, amplitude);
