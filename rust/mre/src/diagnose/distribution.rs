@@ -4,7 +4,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_core::Rng;
 
 /// Tests that decide count a gain this much less: the noise was estimated from the same residuals, and far out in the
-/// tail that makes chance gains larger.
+/// tail that makes chance gains larger still than on average ([`super::noise::Noise::inflation`]).
 pub(super) const CAUTION: f64 = 1.1;
 
 /// `P(X > x)` of a chi-square variable.

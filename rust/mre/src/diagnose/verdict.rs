@@ -31,7 +31,8 @@ pub enum Verdict {
     Adequate,
     /// The effects named explain the mismatch.
     MissingPhysics,
-    /// Effects were found, and a mismatch is left that nothing in the catalogue explains.
+    /// Effects were found, and a mismatch is left that nothing in the catalogue explains, or one of them fits only
+    /// where its law ends.
     PartlyExplained,
     /// A mismatch, and nothing in the catalogue explains it.
     Unexplained,
