@@ -6,26 +6,12 @@ use std::sync::atomic::AtomicBool;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use mre::fitness::Problem;
-use mre::swarm::{
-    Budget, Crowd, FishSettings, FishSwarm, Neighbourhood, OfProblem, Schedule, Search, awake, run,
-};
+use mre::swarm::{Budget, FishSettings, FishSwarm, OfProblem, awake, run};
 use mre_bench::problem;
 
 fn mafsa(problem: &Problem, iterations: usize) {
     let d = problem.bounds().len();
-    let settings = FishSettings {
-        fish: 50,
-        iterations,
-        try_number: 50,
-        delta: 0.6,
-        visual: 0.5,
-        step: 0.25,
-        schedule: Schedule::FromStart { visual_min: 0.002, step_min: 0.0003, p: 5 },
-        neighbourhood: Neighbourhood::Swarm,
-        crowd: Crowd::Literal,
-        search: Search::Best,
-    };
-    let Ok(mut swarm) = FishSwarm::new(settings, d, 1, None) else { return };
+    let Ok(mut swarm) = FishSwarm::new(FishSettings::mafsa(iterations), d, 1, None) else { return };
     let never = AtomicBool::new(false);
     let mut fitness = OfProblem { problem, cancel: &never };
     run(&mut swarm, &mut fitness, d, &Budget::default(), &mut |_| true);

@@ -9,7 +9,7 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::sync::atomic::AtomicBool;
 
-use common::{Trial, mafsa, problem, with_threads};
+use common::{Trial, problem, with_threads};
 use mre::fitness::{Problem, Weights};
 use mre::swarm::{
     Budget, FishSettings, FishSwarm, Neighbourhood, OfProblem, ParticleSwarm, PsoSettings, Schedule, Search,
@@ -51,7 +51,7 @@ unsafe impl GlobalAlloc for Counting {
 static ALLOCATOR: Counting = Counting;
 
 fn fish(iterations: usize, search: Search, neighbourhood: Neighbourhood) -> FishSettings {
-    let plain = mafsa(iterations);
+    let plain = FishSettings::mafsa(iterations);
     let schedule = match neighbourhood {
         Neighbourhood::Swarm => plain.schedule,
         Neighbourhood::Visual => Schedule::Constant,

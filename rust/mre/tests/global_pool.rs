@@ -6,7 +6,7 @@ mod common;
 
 use std::sync::atomic::AtomicBool;
 
-use common::{Trial, fitness, mafsa, problem, with_threads};
+use common::{Trial, fitness, problem, with_threads};
 use mre::fit::{certified, exact};
 use mre::fitness::Weights;
 use mre::swarm::{Budget, FishSettings, FishSwarm, Schedule, run};
@@ -29,7 +29,7 @@ fn small_work_starts_no_pool() {
         let most = (1..10_000).take_while(|count| problem.on_one_thread(*count)).last().unwrap();
         fitness(&problem, &problem.bounds().upper().repeat(most));
     }
-    let settings = FishSettings { schedule: Schedule::Constant, ..mafsa(2) };
+    let settings = FishSettings { schedule: Schedule::Constant, ..FishSettings::mafsa(2) };
     let mut swarm = FishSwarm::new(settings, 5, 1, None).unwrap();
     let mut bowl = |rows: &[f64], costs: &mut [f64]| {
         for (row, cost) in rows.chunks_exact(5).zip(costs) {

@@ -5,7 +5,7 @@ mod common;
 
 use std::sync::atomic::AtomicBool;
 
-use common::{Trial, fitness, mafsa, problem, with_threads};
+use common::{Trial, fitness, problem, with_threads};
 use mre::fitness::{Problem, Weights};
 use mre::swarm::{Budget, FishSettings, FishSwarm, Fitness, History, OfProblem, Search, Stream, Swarm, run};
 
@@ -47,7 +47,7 @@ fn swarm(search: Search) -> FishSwarm {
 }
 
 fn in_a_box_of(dimension: usize, search: Search) -> FishSwarm {
-    FishSwarm::new(FishSettings { search, ..mafsa(20) }, dimension, 1, None).unwrap()
+    FishSwarm::new(FishSettings { search, ..FishSettings::mafsa(20) }, dimension, 1, None).unwrap()
 }
 
 /// Where a swarm has come to.

@@ -6,7 +6,7 @@ mod common;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use common::{Bounds, Trial, fitness, mafsa, problem, with_threads};
+use common::{Bounds, Trial, fitness, problem, with_threads};
 use mre::error::Error;
 use mre::fit::certified::{certificate, exact};
 use mre::fit::{self, hybrid};
@@ -111,7 +111,7 @@ fn a_wider_range_is_as_good() {
 #[test]
 fn the_hybrid_needs_no_samples() {
     let problem = streamed(&recording(5_000), 1_000, &[]);
-    let settings = FishSettings { fish: 8, try_number: 8, ..mafsa(8) };
+    let settings = FishSettings { fish: 8, try_number: 8, ..FishSettings::mafsa(8) };
     let never = AtomicBool::new(false);
     let found = hybrid(&problem, settings, 1, None, &Budget::default(), &mut |_| true, &never).unwrap();
     let best = fit::exact(&problem, &never);

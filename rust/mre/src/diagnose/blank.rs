@@ -97,11 +97,9 @@ fn forces(found: &Diagnosis) -> Vec<Vec<f64>> {
     let assembly = &found.base.assembly;
     let recordings = assembly.campaign().recordings().len();
     let mut kept = vec![true; assembly.base_coefficients()];
-    for effect in assembly.effects() {
-        let own = effect.of_the_measurement();
-        let copies = if own { recordings } else { 1 };
-        let simulated = !own || effect.about() == InitialState.about();
-        kept.extend(vec![simulated; copies * effect.coefficients().len()]);
+    for (place, effect) in assembly.effects().iter().enumerate() {
+        let simulated = !effect.of_the_measurement() || effect.about() == InitialState.about();
+        kept.extend(vec![simulated; assembly.of_effect(place).0.len()]);
     }
     let fitted = &found.base.fitted;
     let pairs = fitted.coefficients.iter().zip(&kept);

@@ -95,6 +95,22 @@ fn positive(name: &str, value: f64) -> Result<()> {
 }
 
 impl FishSettings {
+    /// MAFSA with the paper's settings.
+    pub fn mafsa(iterations: usize) -> Self {
+        Self {
+            fish: 50,
+            iterations,
+            try_number: 50,
+            delta: 0.6,
+            visual: 0.5,
+            step: 0.25,
+            schedule: Schedule::FromStart { visual_min: 0.002, step_min: 0.0003, p: 5 },
+            neighbourhood: Neighbourhood::Swarm,
+            crowd: Crowd::Literal,
+            search: Search::Best,
+        }
+    }
+
     /// Check every setting.
     ///
     /// # Errors

@@ -7,7 +7,6 @@ use std::sync::atomic::AtomicBool;
 use mre::fitness::{Problem, Weights};
 use mre::model::Model;
 use mre::recording::{Condition, Recording, Series};
-use mre::swarm::{Crowd, FishSettings, Neighbourhood, Schedule, Search};
 
 /// How a recording is made.
 #[derive(Debug, Clone)]
@@ -92,20 +91,4 @@ pub fn by_the_book(problem: &Problem, row: &[f64]) -> f64 {
 /// In a pool of that many threads.
 pub fn with_threads<T: Send>(threads: usize, job: impl FnOnce() -> T + Send) -> T {
     rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(job)
-}
-
-/// MAFSA with the paper's settings.
-pub fn mafsa(iterations: usize) -> FishSettings {
-    FishSettings {
-        fish: 50,
-        iterations,
-        try_number: 50,
-        delta: 0.6,
-        visual: 0.5,
-        step: 0.25,
-        schedule: Schedule::FromStart { visual_min: 0.002, step_min: 0.0003, p: 5 },
-        neighbourhood: Neighbourhood::Swarm,
-        crowd: Crowd::Literal,
-        search: Search::Best,
-    }
 }
