@@ -18,9 +18,9 @@ pub struct Assembly<'a> {
     pub(super) base: &'a Base,
     pub(super) effects: Vec<&'static dyn Effect>,
     /// Force of the base model alone, by recording.
-    reference: Arc<Vec<Vec<f64>>>,
+    pub(super) reference: Arc<Vec<Vec<f64>>>,
     /// Force of the device with all its effects, by recording.
-    whole: Arc<Vec<Vec<f64>>>,
+    pub(super) whole: Arc<Vec<Vec<f64>>>,
     boxes: Vec<Parameter>,
     pub(super) known: Option<Arc<Known>>,
 }
@@ -83,19 +83,21 @@ impl<'a> Assembly<'a> {
     /// The same with the force of the whole device at these parameters.
     #[must_use]
     pub fn seeing_its_force(&self, unit: &[f64], coefficients: &[f64]) -> Self {
+        let recordings = 0..self.campaign.recordings().len();
+        let whole = recordings.map(|r| self.force_seen(r, unit, coefficients)).collect();
+        Self { whole: Arc::new(whole), known: None, ..self.clone() }
+    }
+
+    /// Force in N of the whole device in a recording, as near as what is known of it leads.
+    pub(super) fn force_seen(&self, r: usize, unit: &[f64], coefficients: &[f64]) -> Vec<f64> {
         let shapes = self.physical(unit);
         let device = self.device_coefficients();
         let own: Vec<f64> = coefficients.iter().zip(device).map(|(c, d)| if d { *c } else { 0.0 }).collect();
-        let flexibility = self.flexibility(&shapes);
-        let better = |(r, recording): (usize, &Arc<Recording>)| {
-            let given = self.force_of_the_device(r, &shapes, &own);
-            match flexibility {
-                Some(flexibility) => nearer(recording, &self.whole[r], &given, flexibility),
-                None => given,
-            }
-        };
-        let whole = self.campaign.recordings().iter().enumerate().map(better).collect();
-        Self { whole: Arc::new(whole), known: None, ..self.clone() }
+        let given = self.force_of_the_device(r, &shapes, &own);
+        match self.flexibility(&shapes) {
+            Some(flexibility) => nearer(&self.campaign.recordings()[r], &self.whole[r], &given, flexibility),
+            None => given,
+        }
     }
 
     /// What the effects take from the motion for each newton of the device, mm/N; `None`: nothing follows from it.
@@ -221,12 +223,16 @@ impl<'a> Assembly<'a> {
 
     /// Force in N of the base alone in every recording, at the parameters of the assembly.
     pub fn base_force(&self, unit: &[f64], coefficients: &[f64]) -> Vec<Vec<f64>> {
+        (0..self.campaign.recordings().len()).map(|r| self.base_force_in(r, unit, coefficients)).collect()
+    }
+
+    /// The same in one of them.
+    pub(super) fn base_force_in(&self, r: usize, unit: &[f64], coefficients: &[f64]) -> Vec<f64> {
+        if let Base::Held(kept) = self.base {
+            return kept.alone(&self.campaign.recordings()[r]);
+        }
         let alone = self.with(Vec::new());
         let shapes = alone.physical(&unit[..alone.base_shapes()]);
-        let own = &coefficients[..alone.base_coefficients()];
-        if let Base::Held(kept) = self.base {
-            return self.campaign.recordings().iter().map(|r| kept.alone(r)).collect();
-        }
-        (0..self.campaign.recordings().len()).map(|r| alone.columns(r, &shapes).force(own)).collect()
+        alone.columns(r, &shapes).force(&coefficients[..alone.base_coefficients()])
     }
 }

@@ -1,6 +1,7 @@
 //! A base model and effects as one model: for given nonlinear parameters a sum of columns with linear
 //! coefficients, seen through a measurement chain.
 
+mod another;
 mod base;
 mod campaign;
 mod columns;

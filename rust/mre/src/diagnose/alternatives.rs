@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use super::candidates::{Candidate, candidates, joint, scores};
 use super::held::Held;
 use super::least_squares::Data;
+use super::next_test::Rival;
 use super::null::Null;
 use super::screen::Score;
 use super::search::{Named, REFITTED, Search};
@@ -13,43 +14,45 @@ use super::search::{Named, REFITTED, Search};
 /// included) cannot be told apart: the odds against it are below 150 to 1.
 const APART: f64 = 10.0;
 
-/// Models with another effect in the place of one that was named, which fit as well within the noise; with the
-/// ids of these effects, of which some may come with several laws.
+/// Models with another law in the place of an effect that was named, which fit as well within the noise: those of other
+/// effects, and other laws of the same.
 pub(super) fn rivals<'a>(
     search: &Search<'_, 'a>,
     named: &Named<'a>,
     place: usize,
     data: Data,
-) -> Vec<(&'static str, Candidate<'a>)> {
+) -> (Vec<Rival<'a>>, Vec<Rival<'a>>) {
     let without = search.drop(named, place);
-    let id = named.assembly.effects()[place].about().effect;
+    let known = named.assembly.effects()[place].about();
     let unit = &without.fitted.unit;
     let scored = scores(&without.assembly, data, unit, search.settings);
     let own = named.fitted.criterion();
-    let told = |candidate: Candidate<'a>| {
-        let rival = candidate.added().filter(|rival| *rival != id)?;
-        (candidate.criterion() <= own + APART).then_some((rival, candidate))
+    let told = |model: Candidate<'a>| {
+        let about = model.assembly.effects().last()?.about();
+        let close = about != known && model.criterion() <= own + APART;
+        close.then_some(Rival { effect: about.effect, place, model })
     };
     let best = candidates(&without.assembly, data, unit, &scored, REFITTED);
-    let mut found: Vec<(&'static str, Candidate)> = best.into_iter().filter_map(told).collect();
+    let mut found: Vec<Rival> = best.into_iter().filter_map(told).collect();
     // The other laws of the same effects: one of them may be what no test tells from the effect named.
-    let law = |c: &Candidate| c.assembly.effects().last().map(|e| e.about().law);
+    let law = |rival: &Rival| rival.model.assembly.effects().last().map(|e| e.about().law);
     let others: Vec<&Score> = scored
         .iter()
         .filter(|score| {
             let about = score.effect.about();
-            let mut alike = found.iter().filter(|(rival, _)| *rival == about.effect).peekable();
-            alike.peek().is_some() && alike.all(|(_, c)| law(c) != Some(about.law))
+            let mut alike = found.iter().filter(|rival| rival.effect == about.effect).peekable();
+            alike.peek().is_some() && alike.all(|rival| law(rival) != Some(about.law))
         })
         .collect();
     let null = (!others.is_empty()).then(|| Null::new(&without.assembly, data, unit)).flatten();
-    let Some(null) = null else { return found };
-    let starts: Vec<Held> = others.into_par_iter().map(|score| null.held(score)).collect();
-    drop(null);
-    let others: Vec<Candidate> = starts
-        .into_par_iter()
-        .map(|held| joint(&without.assembly, data, unit, held.score.effect, &held.shape))
-        .collect();
-    found.extend(others.into_iter().filter_map(told));
-    found
+    if let Some(null) = null {
+        let starts: Vec<Held> = others.into_par_iter().map(|score| null.held(score)).collect();
+        drop(null);
+        let others: Vec<Candidate> = starts
+            .into_par_iter()
+            .map(|held| joint(&without.assembly, data, unit, held.score.effect, &held.shape))
+            .collect();
+        found.extend(others.into_iter().filter_map(told));
+    }
+    found.into_iter().partition(|rival| rival.effect != known.effect)
 }

@@ -76,7 +76,8 @@ pub fn run<'a>(
         let proof = |of, fitted| prove(of, &named.noise, judged, fitted, monitor);
         (proof(&begun.assembly, &base_fit), proof(&named.assembly, &named.fitted))
     });
-    let mut doubt = Doubt { rivals: Vec::new(), hidden: absorbed.iter().map(|a| a.effect).collect() };
+    let hidden = absorbed.iter().map(|a| a.effect).collect();
+    let mut doubt = Doubt { rivals: Vec::new(), laws: Vec::new(), hidden };
     let effects = effects(&search, &named, judged, proofs.as_ref().map(|p| &p.1), &mut doubt);
     let next_test =
         monitor.stage(Stage::NextTest, || propose(&named, base, &doubt, &rows, settings, monitor));
@@ -122,14 +123,15 @@ fn effects<'a>(
             let before = prove(&without.assembly, &named.noise, splits, &without.fitted, monitor);
             (before.held_out_rms, rivals(search, named, effect.place, search.data(&named.noise)))
         });
-        let Some((before, rivals)) = told else { break };
+        let Some((before, (rivals, laws))) = told else { break };
         effect.held_out = Some(HeldOut { before, after: after.held_out_rms });
-        for (id, _) in &rivals {
-            if !effect.rivals.contains(id) {
-                effect.rivals.push(id);
+        for rival in &rivals {
+            if !effect.rivals.contains(&rival.effect) {
+                effect.rivals.push(rival.effect);
             }
         }
         doubt.rivals.extend(rivals);
+        doubt.laws.extend(laws);
     }
     let before = |e: &Effect| e.held_out.map_or(0.0, |h| h.before);
     found.sort_by(|a, b| before(b).total_cmp(&before(a)));

@@ -1,5 +1,7 @@
 //! What the machine and the device may do in the next test.
 
+use std::f64::consts::TAU;
+
 use crate::assembly::Campaign;
 
 /// Highest frequency that is proposed, as a share of the sampling rate.
@@ -8,6 +10,12 @@ const HIGHEST_SHARE: f64 = 0.05;
 const HIGHEST: f64 = 10.0;
 /// Durations that are proposed, s.
 const DURATIONS: std::ops::Range<f64> = 10.0..40.0;
+/// How many times as long a test may be where that tells more.
+const LONGER: [f64; 4] = [1.0, 2.0, 4.0, 8.0];
+/// Most samples of such a test.
+const MOST: f64 = 100_000.0;
+/// How many times as fast, at the stroke that was tested.
+const FASTER: [f64; 3] = [1.0, 2.0, 4.0];
 
 /// What the machine and the device may do.
 #[derive(Debug, Clone, PartialEq)]
@@ -55,5 +63,25 @@ impl Limits {
             rate,
             current: given.current.or(sizes.current).filter(|(low, high)| high > low),
         }
+    }
+    /// The same, and what is harder to make, the easiest first: longer, then faster, where that is not limited.
+    pub(super) fn wider(&self, given: &GivenLimits) -> Vec<Self> {
+        let of = |free: bool, all: &'static [f64]| if free { all } else { &all[..1] };
+        let longer = of(given.duration.is_none(), &LONGER);
+        let faster = of(given.speed.is_none(), &FASTER);
+        // No motion within stroke and frequency is faster.
+        let fastest = TAU * self.highest * self.stroke;
+        let mut found = Vec::new();
+        for (i, by) in faster.iter().enumerate() {
+            let slower = if i > 0 { faster[i - 1] * self.speed } else { 0.0 };
+            for times in longer {
+                let wider = Self { duration: times * self.duration, speed: by * self.speed, ..self.clone() };
+                let short = *times == 1.0 || wider.duration * self.rate <= MOST;
+                if short && slower < fastest {
+                    found.push(wider);
+                }
+            }
+        }
+        found
     }
 }

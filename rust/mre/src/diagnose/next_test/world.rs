@@ -4,8 +4,11 @@ use std::sync::Arc;
 
 use super::excitation::Signal;
 use crate::assembly::{Assembly, Base, Campaign, Doubts};
-use crate::diagnose::least_squares::Fitted;
+use crate::diagnose::candidates::Candidate;
 use crate::recording::{Condition, Recording, Series};
+
+/// Passes until a simulation agrees with what effects see of it.
+const PASSES: usize = 4;
 
 /// A campaign with a recording of an imagined test at its end, and the base on it.
 pub(super) struct World {
@@ -14,11 +17,13 @@ pub(super) struct World {
 }
 
 impl World {
-    /// `None` where the base cannot be simulated on the excitation.
+    /// The test with a velocity in mm/s where one would be recorded, and a force in N. `None` where the base cannot be
+    /// simulated on the excitation.
     pub(super) fn new(
         known: &Campaign,
         base: &Base,
         signal: &Signal,
+        velocity: Option<Vec<f64>>,
         force: Option<Vec<f64>>,
     ) -> Option<Self> {
         let like = &known.recordings()[0];
@@ -30,7 +35,7 @@ impl World {
         let probe = Recording::new(Series {
             time: signal.time.clone(),
             displacement: signal.displacement.clone(),
-            velocity: None,
+            velocity,
             force: Some(force.unwrap_or_else(|| elastic(known, signal))),
             simulated: None,
             current,
@@ -57,29 +62,31 @@ impl World {
         Some(Self { campaign, base })
     }
 
+    /// The imagined test.
+    pub(super) fn test(&self) -> &Recording {
+        &self.campaign.recordings()[self.last()]
+    }
+
+    /// Its place.
+    pub(super) fn last(&self) -> usize {
+        self.campaign.recordings().len() - 1
+    }
+
     pub(super) fn campaign(&self) -> &Campaign {
         &self.campaign
     }
 
-    /// A model of the known recordings on these, and its shapes in the unit box.
-    pub(super) fn assembly<'w>(&'w self, of: &Assembly, fitted: &Fitted) -> (Assembly<'w>, Vec<f64>) {
-        let nothing = self.campaign.recordings().iter().map(|r| vec![0.0; r.len()]).collect();
-        let bare = Assembly::new(&self.campaign, &self.base, of.effects().to_vec(), Arc::new(nothing));
-        let unit = bare.unit(&of.physical(&fitted.unit));
-        let coefficients = widened(of, fitted);
-        let force = bare.base_force(&unit, &coefficients);
-        (bare.referring_to(force).seeing_its_force(&unit, &coefficients), unit)
+    /// A model of the known recordings on these.
+    pub(super) fn assembly<'w>(&'w self, of: &Candidate) -> Assembly<'w> {
+        let coefficients = widened(of);
+        of.assembly.with_another((&self.campaign, &self.base), &of.fitted.unit, &coefficients, PASSES)
     }
 
-    /// Force in N of a model on the imagined test.
-    pub(super) fn simulated(&self, of: &Assembly, fitted: &Fitted, passes: usize) -> Option<Vec<f64>> {
-        let (mut assembly, unit) = self.assembly(of, fitted);
-        let coefficients = widened(of, fitted);
-        for _ in 0..passes {
-            assembly = assembly.seeing_its_force(&unit, &coefficients);
-        }
-        let last = self.campaign.recordings().len() - 1;
-        let force = assembly.columns(last, &assembly.physical(&unit)).measured(&coefficients);
+    /// Force in N of a model on the imagined test; `None` where it is not finite.
+    pub(super) fn simulated(&self, of: &Candidate) -> Option<Vec<f64>> {
+        let assembly = self.assembly(of);
+        let shapes = assembly.physical(&of.fitted.unit);
+        let force = assembly.columns(self.last(), &shapes).measured(&widened(of));
         force.iter().all(|f| f.is_finite()).then_some(force)
     }
 }
@@ -90,18 +97,28 @@ fn elastic(known: &Campaign, signal: &Signal) -> Vec<f64> {
     signal.displacement.iter().map(|x| sizes.force / sizes.displacement * x).collect()
 }
 
-/// Coefficients with zeros for what the measurement of one more recording adds.
-fn widened(of: &Assembly, fitted: &Fitted) -> Vec<f64> {
-    let mut rest = fitted.coefficients.iter().copied();
-    let mut found: Vec<f64> = rest.by_ref().take(of.base_coefficients()).collect();
+/// Where the coefficients of a model stand when the measurement of one more recording has its own, and how many there
+/// are then.
+pub(super) fn moved(of: &Assembly) -> (Vec<usize>, usize) {
     let recordings = of.campaign().recordings().len();
+    let mut places: Vec<usize> = (0..of.base_coefficients()).collect();
+    let mut next = places.len();
     for effect in of.effects() {
         let width = effect.coefficients().len();
-        let own = effect.of_the_measurement();
-        found.extend(rest.by_ref().take(if own { recordings * width } else { width }));
-        if own {
-            found.extend(vec![0.0; width]);
-        }
+        let (known, all) =
+            if effect.of_the_measurement() { (recordings, recordings + 1) } else { (1, 1) };
+        places.extend(next..next + known * width);
+        next += all * width;
+    }
+    (places, next)
+}
+
+/// Coefficients with zeros for what the measurement of one more recording adds.
+pub(super) fn widened(of: &Candidate) -> Vec<f64> {
+    let (places, count) = moved(&of.assembly);
+    let mut found = vec![0.0; count];
+    for (place, value) in places.into_iter().zip(&of.fitted.coefficients) {
+        found[place] = *value;
     }
     found
 }

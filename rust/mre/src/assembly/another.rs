@@ -1,0 +1,37 @@
+//! An assembly with one more recording, of which nothing is known yet.
+
+use std::sync::Arc;
+
+use super::base::Base;
+use super::campaign::Campaign;
+use super::layout::Assembly;
+
+impl Assembly<'_> {
+    /// The same on a campaign with one recording more at its end, at these parameters, and the base on it; what effects
+    /// see of the others stays. Where effects follow from the force, it is found in so many passes.
+    pub(crate) fn with_another<'w>(
+        &self,
+        (campaign, base): (&'w Campaign, &'w Base),
+        unit: &[f64],
+        coefficients: &[f64],
+        passes: usize,
+    ) -> Assembly<'w> {
+        let last = campaign.recordings().len() - 1;
+        let nothing = vec![0.0; campaign.recordings()[last].len()];
+        let (mut reference, mut whole) = ((*self.reference).clone(), (*self.whole).clone());
+        reference.push(nothing.clone());
+        whole.push(nothing);
+        let mut wider = Assembly::new(campaign, base, self.effects.clone(), Arc::new(reference));
+        let alone = wider.base_force_in(last, unit, coefficients);
+        // Nothing else holds them yet.
+        Arc::make_mut(&mut wider.reference)[last].clone_from(&alone);
+        whole[last] = alone;
+        wider.whole = Arc::new(whole);
+        let passes = if wider.flexibility(&wider.physical(unit)).is_some() { passes } else { 1 };
+        for _ in 0..passes {
+            let force = wider.force_seen(last, unit, coefficients);
+            Arc::make_mut(&mut wider.whole)[last] = force;
+        }
+        wider
+    }
+}

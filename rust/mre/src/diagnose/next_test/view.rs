@@ -1,0 +1,126 @@
+//! What a model says of an imagined test to first order: its parameters bend to a force as far as the recordings let
+//! them.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::world::{World, moved, widened};
+use crate::diagnose::candidates::Candidate;
+use crate::diagnose::least_squares::Data;
+use crate::diagnose::noise::Noise;
+use crate::diagnose::normal::Normal;
+use crate::diagnose::point::Point;
+use crate::diagnose::step::{Ridge, step};
+use crate::kernel::filter::dot;
+
+/// Step of the difference quotients, in the unit box.
+const STEP: f64 = 1e-4;
+const RIDGE: Ridge = Ridge { coefficients: 1e-12, shapes: 1e-9 };
+
+/// How firmly the recordings hold the parameters of a model.
+pub(super) struct Held(Normal);
+
+impl Held {
+    pub(super) fn of(model: &Candidate, data: Data) -> Self {
+        let point = Point::at(&model.assembly, data, model.fitted.unit.clone());
+        Self(point.with_tangents(&model.assembly, data))
+    }
+}
+
+/// A model on an imagined test.
+pub(super) struct View {
+    /// Force in N at the parameters that the recordings have.
+    force: Vec<f64>,
+    /// Whitened columns and tangents on the test, by place.
+    columns: Vec<(usize, Vec<f64>)>,
+    /// Products of these, and of those on the recordings.
+    gram: DMatrix<f64>,
+    /// Shapes in the unit box.
+    unit: Vec<f64>,
+    /// Place of the test.
+    place: usize,
+}
+
+impl View {
+    /// `noise` is that of the recordings and of the test.
+    pub(super) fn new(world: &World, model: &Candidate, held: &Held, noise: &Noise) -> Self {
+        let (assembly, unit, place) = (world.assembly(model), &model.fitted.unit, world.last());
+        let coefficients = widened(model);
+        let here = assembly.physical(unit);
+        let at_last: Vec<usize> = (0..unit.len()).filter(|j| assembly.bears(*j, place)).collect();
+        let moves: Vec<(usize, f64, Vec<f64>)> = at_last
+            .into_iter()
+            .map(|j| {
+                let mut unit = unit.clone();
+                let step = if unit[j] + STEP > 1.0 { -STEP } else { STEP };
+                unit[j] += step;
+                let mut shapes = here.clone();
+                shapes[j] = assembly.physical(&unit)[j];
+                (j, step, shapes)
+            })
+            .collect();
+        let jobs: Vec<(usize, &[f64])> = std::iter::once(&here)
+            .chain(moves.iter().map(|(.., shapes)| shapes))
+            .map(|shapes| (place, shapes.as_slice()))
+            .collect();
+        let mut made = assembly.columns_of(&jobs).into_iter();
+        let own = made.next().unwrap_or_default();
+        let force = own.measured(&coefficients);
+        let white = |series: &[f64]| noise.whiten(place, series);
+        let mut columns: Vec<(usize, Vec<f64>)> =
+            own.places.iter().zip(&own.columns).map(|(place, column)| (*place, white(column))).collect();
+        for ((j, step, _), moved) in moves.iter().zip(made) {
+            let mut change = moved.measured(&coefficients);
+            for (value, before) in change.iter_mut().zip(&force) {
+                *value = (*value - before) / step;
+                if !value.is_finite() {
+                    *value = 0.0;
+                }
+            }
+            columns.push((coefficients.len() + j, white(&change)));
+        }
+        let gram = gram(model, held, &columns, &assembly.known_of_coefficients());
+        Self { force, columns, gram, unit: unit.clone(), place }
+    }
+
+    /// Whitened sum of squares that the model adds where the test shows a force in N.
+    pub(super) fn lack(&self, force: &[f64], noise: &Noise) -> f64 {
+        let off: Vec<f64> = force.iter().zip(&self.force).map(|(f, model)| f - model).collect();
+        let off = noise.whiten(self.place, &off);
+        let all = dot(&off, &off);
+        if !all.is_finite() {
+            return f64::INFINITY;
+        }
+        let mut right = DVector::zeros(self.gram.nrows());
+        for (place, column) in &self.columns {
+            right[*place] += dot(column, &off);
+        }
+        (all - step(&self.gram, &right, RIDGE, &self.unit).1).max(0.0)
+    }
+}
+
+/// Products of all parameters: on the recordings, on the test, and what is known of those of the test's measurement.
+fn gram(
+    model: &Candidate,
+    Held(held): &Held,
+    columns: &[(usize, Vec<f64>)],
+    known: &[f64],
+) -> DMatrix<f64> {
+    let (mut places, count) = moved(&model.assembly);
+    let mut gram = DMatrix::zeros(count + model.fitted.unit.len(), count + model.fitted.unit.len());
+    let added = (0..count).filter(|i| !places.contains(i));
+    for i in added {
+        gram[(i, i)] = known[i];
+    }
+    places.extend(count..gram.nrows());
+    for (i, a) in places.iter().enumerate() {
+        for (j, b) in places.iter().enumerate() {
+            gram[(*a, *b)] = held.gram[(i, j)];
+        }
+    }
+    for (i, a) in columns {
+        for (j, b) in columns {
+            gram[(*i, *j)] += dot(a, b);
+        }
+    }
+    gram
+}
