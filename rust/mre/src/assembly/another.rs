@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::base::Base;
 use super::campaign::Campaign;
+use super::in_series::InSeries;
 use super::layout::Assembly;
 
 impl Assembly<'_> {
@@ -23,11 +24,12 @@ impl Assembly<'_> {
         whole.push(nothing);
         let mut wider = Assembly::new(campaign, base, self.effects.clone(), Arc::new(reference));
         let alone = wider.base_force_in(last, unit, coefficients);
+        let flexibility = wider.flexibility(&wider.physical(unit));
+        whole[last] = InSeries::first(&campaign.recordings()[last], &alone, flexibility.unwrap_or(0.0));
         // Nothing else holds them yet.
-        Arc::make_mut(&mut wider.reference)[last].clone_from(&alone);
-        whole[last] = alone;
+        Arc::make_mut(&mut wider.reference)[last] = alone;
         wider.whole = Arc::new(whole);
-        let passes = if wider.flexibility(&wider.physical(unit)).is_some() { passes } else { 1 };
+        let passes = if flexibility.is_some() { passes } else { 1 };
         for _ in 0..passes {
             let force = wider.force_seen(last, unit, coefficients);
             Arc::make_mut(&mut wider.whole)[last] = force;

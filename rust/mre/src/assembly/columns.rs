@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use rayon::prelude::*;
 
 use super::base::{Base, Group};
+use super::in_series::InSeries;
 use super::layout::Assembly;
 use crate::effect::{About, Effect, Factors, Motion, Scene};
 use crate::law::Law;
@@ -139,6 +140,11 @@ impl Assembly<'_> {
             found.given = Some(force);
         }
         self.effect_columns(r, &scene, &shape_of, &mut found);
+        if let Some(flexibility) = self.flexibility(shapes).filter(|f| *f > 0.0) {
+            let whole = &self.whole[r];
+            let rig = InSeries::new(&self.campaign.recordings()[r], whole, whole, flexibility);
+            rig.pass(whole, &mut found);
+        }
         found
     }
 

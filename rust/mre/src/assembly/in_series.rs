@@ -2,6 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
+use super::columns::Columns;
 use crate::effect::slope;
 use crate::kernel::relaxation::lag;
 use crate::recording::Recording;
@@ -11,25 +12,62 @@ const STIFFER: f64 = 1.3;
 /// A time constant below this share of a step needs no filter.
 const INSTANT: f64 = 0.01;
 
-/// A better guess of the force in N, from a known one and from what the device gives in the motion that the known
-/// one leaves it.
+/// How a difference from a known force is passed on: to put what a device gives in the motion that the known force
+/// leaves it in the place of that force diverges where the device is stiffer than what it stands on.
 ///
-/// To put one in the place of the other diverges where the device is stiffer than what it stands on. The difference
-/// is passed on as a spring and a dashpot near to the device would pass it: `(1 + f k) e + f c e' = difference`.
-pub(super) fn nearer(recording: &Recording, known: &[f64], given: &[f64], flexibility: f64) -> Vec<f64> {
-    let time = recording.time();
-    let less = |series: &[f64], by: &[f64]| -> Vec<f64> {
-        series.iter().zip(by).map(|(s, b)| s - flexibility * b).collect()
-    };
-    let own = less(recording.displacement(), known);
-    let speed = less(recording.velocity(), &slope(time, known));
-    let (stiffness, damping) = spring_and_dashpot(&own, &speed, given);
-    let whole = 1.0 + flexibility * STIFFER * stiffness;
-    let difference: Vec<f64> = given.iter().zip(known).map(|(g, k)| (g - k) / whole).collect();
-    let tau = flexibility * damping / whole;
-    let slow = tau > INSTANT * (time[1] - time[0]);
-    let passed = if slow { lag(time, &difference, tau, difference[0]) } else { difference };
-    known.iter().zip(passed).map(|(k, p)| k + p).collect()
+/// As a spring and a dashpot near to the device pass it: `(1 + f k) e + f c e' = difference`. It is one step of Newton's
+/// method: where the known force is that of the device, the model and its slopes are those of both together.
+pub(super) struct InSeries<'a> {
+    time: &'a [f64],
+    whole: f64,
+    tau: f64,
+}
+
+impl<'a> InSeries<'a> {
+    /// Beside a known force in N, with a flexibility in mm/N; `given` is what the device gives in the motion that it
+    /// leaves it, nearly.
+    pub(super) fn new(recording: &'a Recording, known: &[f64], given: &[f64], flexibility: f64) -> Self {
+        let time = recording.time();
+        let less = |series: &[f64], by: &[f64]| -> Vec<f64> {
+            series.iter().zip(by).map(|(s, b)| s - flexibility * b).collect()
+        };
+        let own = less(recording.displacement(), known);
+        let speed = less(recording.velocity(), &slope(time, known));
+        Self::of(time, spring_and_dashpot(&own, &speed, given), flexibility)
+    }
+
+    /// A first guess of the force in N, from that of the device alone in the recorded motion: a soft rig leaves it so
+    /// little of that motion that nothing else is near enough.
+    pub(super) fn first(recording: &'a Recording, alone: &[f64], flexibility: f64) -> Vec<f64> {
+        let near = spring_and_dashpot(recording.displacement(), recording.velocity(), alone);
+        Self::of(recording.time(), near, flexibility).passed(alone)
+    }
+
+    fn of(time: &'a [f64], (stiffness, damping): (f64, f64), flexibility: f64) -> Self {
+        let whole = 1.0 + flexibility * STIFFER * stiffness;
+        Self { time, whole, tau: flexibility * damping / whole }
+    }
+
+    fn passed(&self, difference: &[f64]) -> Vec<f64> {
+        let difference: Vec<f64> = difference.iter().map(|d| d / self.whole).collect();
+        let slow = self.tau > INSTANT * (self.time[1] - self.time[0]);
+        if slow { lag(self.time, &difference, self.tau, difference[0]) } else { difference }
+    }
+
+    /// A better guess of the force in N than a known one, from what the device gives in the motion that it leaves it.
+    pub(super) fn nearer(&self, known: &[f64], given: &[f64]) -> Vec<f64> {
+        let off: Vec<f64> = given.iter().zip(known).map(|(g, k)| g - k).collect();
+        known.iter().zip(self.passed(&off)).map(|(k, p)| k + p).collect()
+    }
+
+    /// The same of a force that columns give.
+    pub(super) fn pass(&self, known: &[f64], columns: &mut Columns) {
+        for column in &mut columns.columns {
+            *column = self.passed(column);
+        }
+        let given = columns.given.take().unwrap_or_else(|| vec![0.0; known.len()]);
+        columns.given = Some(self.nearer(known, &given));
+    }
 }
 
 /// Stiffness in N/mm and damping in N s/mm of the linear device nearest to a force under its motion.

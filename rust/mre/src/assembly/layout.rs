@@ -6,7 +6,6 @@ use std::sync::Arc;
 use super::base::{Base, Group};
 use super::campaign::Campaign;
 use super::columns::Known;
-use super::in_series::nearer;
 use crate::effect::{Effect, Scene};
 use crate::parameter::{Parameter, Scale};
 use crate::recording::Recording;
@@ -90,14 +89,9 @@ impl<'a> Assembly<'a> {
 
     /// Force in N of the whole device in a recording, as near as what is known of it leads.
     pub(super) fn force_seen(&self, r: usize, unit: &[f64], coefficients: &[f64]) -> Vec<f64> {
-        let shapes = self.physical(unit);
         let device = self.device_coefficients();
         let own: Vec<f64> = coefficients.iter().zip(device).map(|(c, d)| if d { *c } else { 0.0 }).collect();
-        let given = self.force_of_the_device(r, &shapes, &own);
-        match self.flexibility(&shapes) {
-            Some(flexibility) => nearer(&self.campaign.recordings()[r], &self.whole[r], &given, flexibility),
-            None => given,
-        }
+        self.force_of_the_device(r, &self.physical(unit), &own)
     }
 
     /// What the effects take from the motion for each newton of the device, mm/N; `None`: nothing follows from it.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::campaign::Campaign;
-use super::in_series::nearer;
+use super::in_series::InSeries;
 use crate::device::Device;
 use crate::effect::{Effect, Factors, Scene, Sizes};
 use crate::error::{Error, Result};
@@ -85,9 +85,10 @@ pub fn simulate(
     let pass = |known: &[f64]| pass(source, additions, recording, &campaign.scene(0, &alone, known));
     let mut force = pass(&alone)?;
     if let Some(flexibility) = flexibility {
-        let mut known = alone.clone();
+        let mut known = InSeries::first(recording, &alone, flexibility);
+        force = pass(&known)?;
         for _ in 0..PASSES {
-            let better = nearer(recording, &known, &force, flexibility);
+            let better = InSeries::new(recording, &known, &force, flexibility).nearer(&known, &force);
             if distance(&known, &better) <= AGREED {
                 break;
             }

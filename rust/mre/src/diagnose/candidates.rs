@@ -152,9 +152,14 @@ fn promising<'s>(null: &Null, scores: &'s [Score], most: usize) -> Vec<Held<'s>>
         .map(|s| null.held(s))
         .collect();
     let best = refined.iter().map(|held| held.gain).fold(0.0, f64::max);
+    // What changes the motion or the force acts on the model as it will be, not as it is: where much is missing, its
+    // direction tells more than its size beside the tangents.
+    let gain = |held: &Held| {
+        if held.score.effect.coefficients().is_empty() { held.gain.max(held.score.gain) } else { held.gain }
+    };
     let price = (null.point.fitted.rows as f64).ln();
     let size = |held: &Held| held.score.freedom + held.shape.len();
-    let paid = |held: &Held| held.gain - price * size(held) as f64;
+    let paid = |held: &Held| gain(held) - price * size(held) as f64;
     refined.sort_by(|a, b| paid(b).total_cmp(&paid(a)));
     let mut kept: Vec<Held> = Vec::new();
     for held in refined {
@@ -162,7 +167,7 @@ fn promising<'s>(null: &Null, scores: &'s [Score], most: usize) -> Vec<Held<'s>>
         let alike: Vec<&Held> = kept.iter().filter(|k| k.score.effect.about().effect == id).collect();
         // A simpler law that does as well may decide a tie.
         let simpler = alike.iter().all(|k| size(&held) < size(k) && paid(&held) > paid(k) - TIE);
-        if (alike.len() < LAWS_EACH || simpler) && held.gain >= CLOSE * best && kept.len() < most {
+        if (alike.len() < LAWS_EACH || simpler) && gain(&held) >= CLOSE * best && kept.len() < most {
             kept.push(held);
         }
     }

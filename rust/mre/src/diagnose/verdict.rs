@@ -115,7 +115,7 @@ impl Evidence {
         let Tests { first, rest, smooth, wandering, odd, uneven, .. } = *tests;
         let Tests { explained, change, noise, against, nothing_left, .. } = *tests;
         let catalogue = by_effect(&named.scores);
-        let holm = catalogue.iter().map(|(_, p)| *p).fold(1.0, f64::min) * catalogue.len() as f64;
+        let holm = catalogue.iter().map(|(_, p)| *p).fold(1.0, f64::min) * catalogue.len().max(1) as f64;
         let of_places = wandering.p_value.min(odd.p_value);
         let any = OF_ANY * rest.cautious().min(smooth).min(of_places).min(uneven.p_value);
         let p_rest = if nothing_left { 1.0 } else { (WAYS * any.min(holm)).min(1.0) };

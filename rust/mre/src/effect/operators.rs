@@ -54,13 +54,18 @@ pub(super) fn integral(scene: &Scene, rate: impl Fn(usize) -> f64) -> Vec<f64> {
     scene.trace(0.0, |sum, i| sum + 0.5 * (scene.time[i] - scene.time[i - 1]) * (rate(i - 1) + rate(i)))
 }
 
-/// Central differences.
+/// Slope of a series on an even grid: by five points (Abramowitz and Stegun 25.3.6), by three or two near the ends.
 pub(crate) fn slope(time: &[f64], series: &[f64]) -> Vec<f64> {
     let last = series.len() - 1;
     (0..=last)
         .map(|i| {
             let (a, b) = (i.saturating_sub(1), (i + 1).min(last));
-            (series[b] - series[a]) / (time[b] - time[a])
+            let near = (series[b] - series[a]) / (time[b] - time[a]);
+            if i < 2 || i + 2 > last {
+                return near;
+            }
+            let wide = (series[i + 2] - series[i - 2]) / (time[i + 2] - time[i - 2]);
+            (4.0 * near - wide) / 3.0
         })
         .collect()
 }

@@ -71,9 +71,9 @@ impl Effect for Rig {
     }
 
     fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
-        let flexible = 0.03 * sizes.displacement / sizes.force;
+        let [flexible, soft] = [0.03, 0.2].map(|share| share * sizes.displacement / sizes.force);
         match self {
-            Self::Spring | Self::Joint => vec![vec![flexible]],
+            Self::Spring | Self::Joint => vec![vec![flexible], vec![soft]],
             Self::Viscoelastic => {
                 let slow = [0.003, 0.03, 0.2].map(|share| (share * sizes.duration).max(2.0 * sizes.step));
                 [sizes.step].into_iter().chain(slow).map(|t_r| vec![flexible, t_r]).collect()

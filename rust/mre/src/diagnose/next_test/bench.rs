@@ -116,11 +116,7 @@ impl<'b, 'a> Bench<'b, 'a> {
     }
 
     /// What each effect in doubt is told by, given the criterion of a model where a truth shows a force.
-    fn told(
-        &self,
-        test: &Imagined,
-        criterion: impl Fn(usize, &[f64], usize) -> Option<f64>,
-    ) -> Vec<Told> {
+    fn told(&self, test: &Imagined, criterion: impl Fn(usize, &[f64], usize) -> Option<f64>) -> Vec<Told> {
         let truths = self.doubt.truths(&self.models);
         self.doubt.told(&self.models, |truth, other| {
             let t = truths.iter().position(|(known, _)| *known == truth)?;

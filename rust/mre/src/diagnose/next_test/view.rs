@@ -99,12 +99,7 @@ impl View {
 }
 
 /// Products of all parameters: on the recordings, on the test, and what is known of those of the test's measurement.
-fn gram(
-    model: &Candidate,
-    Held(held): &Held,
-    columns: &[(usize, Vec<f64>)],
-    known: &[f64],
-) -> DMatrix<f64> {
+fn gram(model: &Candidate, Held(held): &Held, columns: &[(usize, Vec<f64>)], known: &[f64]) -> DMatrix<f64> {
     let (mut places, count) = moved(&model.assembly);
     let mut gram = DMatrix::zeros(count + model.fitted.unit.len(), count + model.fitted.unit.len());
     let added = (0..count).filter(|i| !places.contains(i));

@@ -105,8 +105,7 @@ pub(super) fn moved(of: &Assembly) -> (Vec<usize>, usize) {
     let mut next = places.len();
     for effect in of.effects() {
         let width = effect.coefficients().len();
-        let (known, all) =
-            if effect.of_the_measurement() { (recordings, recordings + 1) } else { (1, 1) };
+        let (known, all) = if effect.of_the_measurement() { (recordings, recordings + 1) } else { (1, 1) };
         places.extend(next..next + known * width);
         next += all * width;
     }
