@@ -98,6 +98,7 @@ def a_diagnosis(*, name: str = "sine", samples: int = 400, **changed: Any) -> Di
         form="approximate",
         lack_of_fit=0.034,
         indistinguishable_from=("fractional_viscoelasticity",),
+        no_test_tells=("fractional_viscoelasticity",),
         at_the_end=("tau",),
         held_out_rms_before=3.1,
         held_out_rms_after=1.0,

@@ -14,7 +14,7 @@ SINES = ((1.0, 4.0), (1.0, 8.0), (4.0, 2.0), (10.0, 0.7))
 
 
 def recorded(frequency: float, amplitude: float, seed: int) -> Recording:
-    """A sine from rest: T F' + F = k k_r/(k + k_r) (x + c/k v), T = c/(k + k_r), between fine samples exactly."""
+    """A sine from rest: T F' + F = k k_r/(k + k_r) (x + c/k v), T = c/(k + k_r), exact between samples."""
     w, count = 2 * np.pi * frequency, round(8 * RATE)
     time = np.arange(count * FINER) / (RATE * FINER)
     start = np.minimum(time, 1.0)

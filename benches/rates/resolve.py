@@ -20,32 +20,46 @@ class Resolved:
     trial: Trial
     before: frozenset[str]
     """What may be the effect: the name and what is not told from it; empty where none is given."""
+    name: frozenset[str]
+    told: frozenset[str]
+    """Those of them that the proposed test is said to tell from the name; empty: no test would."""
     after: frozenset[str]
+    """As before, with the test; the same where none is to tell anything."""
     excitation: str | None = None
-    """Kind of the proposed test; none where nothing is in doubt."""
+    """Kind of the proposed test."""
     expected: float = 0.0
-    """Product of the chances of telling them apart that the tool gives."""
+    """Product of the chances of telling them that the tool gives."""
 
     @property
     def doubted(self) -> bool:
         """The truth was among several."""
-        return len(self.before) > 1 and self.excitation is not None
+        return len(self.before) > 1 and set(self.trial.case.effects) <= self.before
 
     @property
     def right(self) -> bool:
         """The truth alone is left."""
         return self.after == set(self.trial.case.effects)
 
+    @property
+    def kept(self) -> bool:
+        """The truth is left, and of those that the test is said to tell from each other nothing else."""
+        truth = set(self.trial.case.effects)
+        apart = self.told if truth & (self.before - self.told - self.name) else self.told | self.name
+        return truth <= self.after and not (apart - truth) & self.after
+
 
 def run(trial: Trial) -> Resolved:
     """Diagnose, record the proposed test, diagnose again."""
-    before, proposal = _said(trial, ())
-    if proposal is None or len(before) < 2:
-        return Resolved(trial, before, before)
-    after, _ = _said(trial, (proposed(proposal, current=1.0),))
-    told = [chance for id, chance in proposal["chances"].items() if id in before]
-    expected = math.prod(told) if told else 0.0  # the test is for an effect that is hidden
-    return Resolved(trial, before, after, str(proposal["excitation"]), expected)
+    first = _diagnosed(trial, ())
+    before = _said(first)
+    name = frozenset(effect.id for effect in first.effects) if first else frozenset()
+    proposal = first.next_test if first else None
+    told = frozenset(proposal["separates"]) & before if proposal else frozenset()
+    if proposal is None or len(before) < 2 or not told:
+        return Resolved(trial, before, name, told, before)
+    after = _said(_diagnosed(trial, (proposed(proposal, current=1.0),)))
+    expected = math.prod(proposal["chances"][id] for id in told)
+    return Resolved(trial, before, name, told, after, str(proposal["excitation"]), expected)
 
 
 def proposed(proposal: Mapping[str, Any], current: float) -> Excitation:
@@ -58,10 +72,9 @@ def proposed(proposal: Mapping[str, Any], current: float) -> Excitation:
     return Excitation("proposed", rate, len(signal.time), followed(signal.time, signal.displacement), course)
 
 
-def _said(trial: Trial, also: tuple[Excitation, ...]) -> tuple[frozenset[str], Mapping[str, Any] | None]:
-    """What may be the effect, and the test that is proposed."""
+def _diagnosed(trial: Trial, also: tuple[Excitation, ...]) -> mre_core.Diagnosis | None:
     try:
-        found = mre_core.diagnose(
+        return mre_core.diagnose(
             recordings_of(trial.case.simulate(also)),
             trial.case.base,
             seed=1,
@@ -69,6 +82,10 @@ def _said(trial: Trial, also: tuple[Excitation, ...]) -> tuple[frozenset[str], M
             threads=1,
         )
     except mre_core.InputError:  # a lag so long that the device gives out energy
-        return frozenset(), None
-    said = {one for effect in found.effects for one in (effect.id, *effect.indistinguishable_from)}
-    return frozenset(said), found.next_test
+        return None
+
+
+def _said(found: mre_core.Diagnosis | None) -> frozenset[str]:
+    """What may be the effect."""
+    effects = found.effects if found else ()
+    return frozenset(one for effect in effects for one in (effect.id, *effect.indistinguishable_from))

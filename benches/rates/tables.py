@@ -82,16 +82,18 @@ def admission(found: Sequence[Outcome]) -> str:
 
 
 def resolved(found: Sequence[Resolved]) -> str:
-    """What the proposed tests decide, by how many effects were in question."""
-    doubted = [r for r in found if r.doubted and set(r.trial.case.effects) <= r.before]
-    groups: dict[object, list[Resolved]] = {"all": doubted}
-    for one in doubted:
+    """What the proposed tests decide, by their kind."""
+    doubted = [r for r in found if r.doubted]
+    tested = [r for r in doubted if r.told]
+    groups: dict[object, list[Resolved]] = {"all": tested}
+    for one in tested:
         groups.setdefault(one.excitation, []).append(one)
     rows = [
         (
             what,
             len(own),
             f"{100 * sum(r.expected for r in own) / max(len(own), 1):.0f} %",
+            Rate(sum(r.kept for r in own), len(own)),
             Rate(sum(r.right for r in own), len(own)),
             sum(len(r.after) > 1 and set(r.trial.case.effects) <= r.after for r in own),
             sum(not set(r.trial.case.effects) <= r.after for r in own),
@@ -99,23 +101,26 @@ def resolved(found: Sequence[Resolved]) -> str:
         for what, own in groups.items()
     ]
     head = (
-        *("proposed test", "in doubt before", "the tool expects to resolve"),
-        *("truth alone after", "still in doubt", "truth lost"),
+        *("proposed test", "in doubt before", "the tool expects to tell what it says"),
+        *("told as it says", "truth alone after", "still in doubt", "truth lost"),
     )
+    of_all = Rate(sum(r.right for r in tested), len(doubted))
+    hopeless = [r for r in doubted if not r.told]
+    text = (
+        f"Of {len(found)} campaigns {len(doubted)} left several, the truth among them. In {len(hopeless)} the tool"
+        f" says that no test within the limits would tell: {_listed(hopeless)}. The truth alone after a test, of"
+        f" all: {of_all}. Not told as the tool says: {_listed([r for r in tested if not r.kept])}. Told so, and"
+        f" still in doubt: {_listed([r for r in tested if r.kept and not r.right])}."
+    )
+    return f"{table(head, rows)}\n\n{text}"
+
+
+def _listed(found: Sequence[Resolved]) -> str:
+    """What is left, with how often."""
     left = Counter(
-        f"{', '.join(r.trial.case.effects)}: {' or '.join(sorted(r.after)) or 'nothing'}"
-        for r in doubted
-        if not r.right
+        f"{', '.join(r.trial.case.effects)}: {' or '.join(sorted(r.after)) or 'nothing'}" for r in found
     )
-    return "\n".join(
-        [
-            table(head, rows),
-            "",
-            f"Of {len(found)} campaigns {len(doubted)} left several, the truth among them. Not resolved: "
-            + ("; ".join(f"{what} ({n})" for what, n in left.most_common()) or "none")
-            + ".",
-        ]
-    )
+    return "; ".join(f"{what} ({n})" for what, n in left.most_common()) or "none"
 
 
 def places(found: Sequence[Located]) -> str:

@@ -42,6 +42,8 @@ class MissingEffect:
     lack_of_fit: float
     """What an approximate form leaves, as a share of the force's rms."""
     indistinguishable_from: tuple[str, ...]
+    no_test_tells: tuple[str, ...]
+    """Those of them that no excitation within the limits is expected to tell from it."""
     at_the_end: tuple[str, ...]
     """Parameters that the recordings press to the end of their range, or that cannot be told from nothing and
     without which it is another effect: the name is then the nearest one, and the form approximate."""
@@ -171,6 +173,7 @@ class Diagnosis:
                 asdict(effect)
                 | {
                     "indistinguishable_from": list(effect.indistinguishable_from),
+                    "no_test_tells": list(effect.no_test_tells),
                     "at_the_end": list(effect.at_the_end),
                 }
                 for effect in self.effects

@@ -15,6 +15,8 @@ from .model import Level
 Series = NDArray[np.float64]
 Raw = Mapping[str, Any]
 """An object of the core's JSON."""
+_EXPECTED = 0.5
+"""Chance from which a test is said to tell something."""
 
 
 def rms_of_force(recordings: Sequence[Recording]) -> float:
@@ -63,6 +65,7 @@ def missing_effects(raw: Raw, names: Sequence[str], force: float) -> tuple[Missi
     found = []
     still = [effect["of_the_measurement"] for effect in raw["effects"]]
     doubted = still.index(False) if False in still else 0
+    hopeless = [] if raw["next_test"] is None else _told(raw["next_test"]["prospects"][0], enough=False)
     for rank, effect in enumerate(raw["effects"]):
         at_the_end = tuple(effect["at_the_end"])
         leaves = rank == doubted and raw["approximate"]
@@ -79,6 +82,7 @@ def missing_effects(raw: Raw, names: Sequence[str], force: float) -> tuple[Missi
                 form="approximate" if leaves or at_the_end else "exact",
                 lack_of_fit=raw["lack_of_fit_N"] / force if leaves else 0.0,
                 indistinguishable_from=tuple(effect["indistinguishable_from"]),
+                no_test_tells=tuple(id for id in effect["indistinguishable_from"] if id in hopeless),
                 at_the_end=at_the_end,
                 held_out_rms_before=_known(effect["held_out_rms_before"]),
                 held_out_rms_after=_known(effect["held_out_rms_after"]),
@@ -182,6 +186,11 @@ def _ratio(measured: Series, model: Series) -> float | None:
     return float(measured @ spread) / square if square > 0 else None
 
 
+def _told(prospect: Raw, *, enough: bool) -> list[str]:
+    """Ids that a test is expected to tell, or not."""
+    return [id for id, chance in prospect["chances"].items() if (chance >= _EXPECTED) == enough]
+
+
 def next_test_of(raw: Raw) -> dict[str, Any] | None:
     """Describe the proposed test, what it is expected to tell apart or show, and what others would."""
     found = raw["next_test"]
@@ -190,7 +199,7 @@ def next_test_of(raw: Raw) -> dict[str, Any] | None:
     best = found["prospects"][0]
     limits = found["limits"]
     current = limits["current_A"]
-    separates = [id for id, chance in best["chances"].items() if chance >= 0.5]
+    separates = _told(best, enough=True)
     if not separates:
         return None
     return {

@@ -51,6 +51,9 @@ def print_diagnosis(found: "Diagnosis") -> None:
             if effect.indistinguishable_from:
                 rest = ", ".join(effect.indistinguishable_from)
                 out.print(f"{effect.id}: these recordings cannot tell it from {rest}")
+            if effect.no_test_tells:
+                rest = words.listed(effect.no_test_tells)
+                out.print(f"{effect.id}: no test within the limits is expected to tell it from {rest}")
             if effect.form == "approximate" and (effect.lack_of_fit or not effect.at_the_end):
                 share = f"{100 * effect.lack_of_fit:.2g} %"
                 out.print(f"{effect.id}: its law is not exactly the catalogue's ({share} of the force left)")
