@@ -107,10 +107,11 @@ def resolved(found: Sequence[Resolved]) -> str:
     of_all = Rate(sum(r.right for r in tested), len(doubted))
     hopeless = [r for r in doubted if not r.told]
     text = (
-        f"Of {len(found)} campaigns {len(doubted)} left several, the truth among them. In {len(hopeless)} the tool"
-        f" says that no test within the limits would tell: {_listed(hopeless)}. The truth alone after a test, of"
-        f" all: {of_all}. Not told as the tool says: {_listed([r for r in tested if not r.kept])}. Told so, and"
-        f" still in doubt: {_listed([r for r in tested if r.kept and not r.right])}."
+        f"Of {len(found)} campaigns {len(doubted)} left several, the truth among them."
+        f" In {len(hopeless)} the tool says that no test within the limits would tell: {_listed(hopeless)}."
+        f" The truth alone after a test, of all: {of_all}."
+        f" Not told as the tool says: {_listed([r for r in tested if not r.kept])}."
+        f" Told so, and still in doubt: {_listed([r for r in tested if r.kept and not r.right])}."
     )
     return f"{table(head, rows)}\n\n{text}"
 
