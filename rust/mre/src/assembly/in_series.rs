@@ -82,3 +82,40 @@ fn spring_and_dashpot(displacement: &[f64], velocity: &[f64], force: &[f64]) -> 
     let positive = |value: f64| if value.is_finite() { value.max(0.0) } else { 0.0 };
     (positive(found[0]), positive(found[1]))
 }
+
+#[cfg(test)]
+#[allow(clippy::expect_used)]
+mod tests {
+    use super::*;
+    use crate::recording::Series;
+
+    #[test]
+    fn a_spring_and_a_dashpot_pass_a_force_on_as_the_filter_that_they_are_behind_a_rig() {
+        // k + c s behind k_r: k k_r/(k + k_r) (1 + c/k s)/(1 + c/(k + k_r) s), here on a sine.
+        let (k, c, k_r, w) = (20.0_f64, 1.0, 40.0, 30.0);
+        let time: Vec<f64> = (0..4000).map(|i| f64::from(i) * 1e-3).collect();
+        let displacement: Vec<f64> = time.iter().map(|t| (w * t).sin()).collect();
+        let velocity: Vec<f64> = time.iter().map(|t| w * (w * t).cos()).collect();
+        let alone: Vec<f64> = displacement.iter().zip(&velocity).map(|(x, v)| k * x + c * v).collect();
+        let recording = Recording::new(Series {
+            time: time.clone(),
+            displacement,
+            velocity: Some(velocity),
+            force: None,
+            simulated: None,
+            current: crate::recording::Condition::Missing,
+            temperature: crate::recording::Condition::Missing,
+            name: String::new(),
+        })
+        .expect("a recording");
+        let first = InSeries::first(&recording, &alone, 1.0 / k_r);
+        let (re, im) = (k * (k + k_r) + c * c * w * w, c * w * k_r);
+        let share = k_r / ((k + k_r).powi(2) + (c * w).powi(2));
+        let exact = |t: f64| share * (re * (w * t).sin() + im * (w * t).cos());
+        // Near in size and phase: the tangent is taken to be stiffer than it is.
+        let apart = |i: usize| first[i] - exact(time[i]);
+        let size = share * re.hypot(im);
+        let worst = (2000..4000).map(|i| apart(i).abs()).fold(0.0, f64::max);
+        assert!(worst < 0.15 * size, "{worst} of {size}");
+    }
+}

@@ -74,3 +74,19 @@ pub(crate) fn slope(time: &[f64], series: &[f64]) -> Vec<f64> {
 pub(super) fn each(series: &[f64], change: impl Fn(f64) -> f64) -> Vec<f64> {
     series.iter().map(|v| change(*v)).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_slope_of_a_sine_of_twenty_samples_a_cycle_is_right_to_half_a_thousandth() {
+        let w = std::f64::consts::TAU / 20.0;
+        let time: Vec<f64> = (0..100).map(f64::from).collect();
+        let found = slope(&time, &each(&time, |t| (w * t).sin()));
+        for (t, slope) in time.iter().zip(&found).skip(2).take(96) {
+            assert!((slope / w - (w * t).cos()).abs() < 5e-4, "{t}");
+        }
+        assert!((found[0] / w - 1.0).abs() < 0.02);
+    }
+}

@@ -13,7 +13,7 @@ const DURATIONS: std::ops::Range<f64> = 10.0..40.0;
 /// How many times as long a test may be where that tells more.
 const LONGER: [f64; 4] = [1.0, 2.0, 4.0, 8.0];
 /// Most samples of such a test.
-const MOST: f64 = 100_000.0;
+const MOST: f64 = 30_000.0;
 /// How many times as fast, at the stroke that was tested.
 const FASTER: [f64; 3] = [1.0, 2.0, 4.0];
 
@@ -64,6 +64,7 @@ impl Limits {
             current: given.current.or(sizes.current).filter(|(low, high)| high > low),
         }
     }
+
     /// The same, and what is harder to make, the easiest first: longer, then faster, where that is not limited.
     pub(super) fn wider(&self, given: &GivenLimits) -> Vec<Self> {
         let of = |free: bool, all: &'static [f64]| if free { all } else { &all[..1] };
@@ -83,5 +84,29 @@ impl Limits {
             }
         }
         found
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_not_limited_grows_the_duration_first() {
+        let tested =
+            Limits { stroke: 5.0, speed: 50.0, highest: 10.0, duration: 12.0, rate: 200.0, current: None };
+        let sizes = |given: &GivenLimits| -> Vec<(f64, f64)> {
+            tested.wider(given).iter().map(|l| (l.duration, l.speed)).collect()
+        };
+        let all = sizes(&GivenLimits::default());
+        assert_eq!(all[..5], [(12.0, 50.0), (24.0, 50.0), (48.0, 50.0), (96.0, 50.0), (12.0, 100.0)]);
+        assert_eq!(all.len(), 12);
+        let slow = GivenLimits { speed: Some(50.0), ..GivenLimits::default() };
+        assert_eq!(sizes(&slow).len(), 4);
+        let short = GivenLimits { duration: Some(12.0), ..slow };
+        assert_eq!(sizes(&short), [(12.0, 50.0)]);
+        // 1 Hz at 5 mm needs no more than 31 mm/s, and 10 kHz for 24 s is too much.
+        let slow = Limits { highest: 1.0, rate: 10_000.0, ..tested.clone() };
+        assert_eq!(slow.wider(&GivenLimits::default()).len(), 1);
     }
 }
