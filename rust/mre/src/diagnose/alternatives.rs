@@ -14,8 +14,9 @@ use super::search::{Named, REFITTED, Search};
 /// included) cannot be told apart: the odds against it are below 150 to 1.
 const APART: f64 = 10.0;
 
-/// Models with another law in the place of an effect that was named, which fit as well within the noise: those of other
-/// effects, and other laws of the same.
+/// Models with another law in the place of an effect that was named: those of other effects, of which one law at least
+/// fits as well within the noise, and other laws of the same. A law that only its number of parameters rules out now may
+/// be the one that a further test leaves.
 pub(super) fn rivals<'a>(
     search: &Search<'_, 'a>,
     named: &Named<'a>,
@@ -27,21 +28,24 @@ pub(super) fn rivals<'a>(
     let unit = &without.fitted.unit;
     let scored = scores(&without.assembly, data, unit, search.settings);
     let own = named.fitted.criterion();
-    let told = |model: Candidate<'a>| {
+    let other = |model: Candidate<'a>| {
         let about = model.assembly.effects().last()?.about();
-        let close = about != known && model.criterion() <= own + APART;
-        close.then_some(Rival { effect: about.effect, place, model })
+        (about != known).then_some(Rival { effect: about.effect, place, model })
     };
     let best = candidates(&without.assembly, data, unit, &scored, REFITTED);
-    let mut found: Vec<Rival> = best.into_iter().filter_map(told).collect();
+    let mut found: Vec<Rival> = best.into_iter().filter_map(other).collect();
+    let close: Vec<&'static str> =
+        found.iter().filter(|r| r.model.criterion() <= own + APART).map(|r| r.effect).collect();
+    found.retain(|rival| rival.effect == known.effect || close.contains(&rival.effect));
     // The other laws of the same effects: one of them may be what no test tells from the effect named.
     let law = |rival: &Rival| rival.model.assembly.effects().last().map(|e| e.about().law);
     let others: Vec<&Score> = scored
         .iter()
         .filter(|score| {
             let about = score.effect.about();
-            let mut alike = found.iter().filter(|rival| rival.effect == about.effect).peekable();
-            alike.peek().is_some() && alike.all(|rival| law(rival) != Some(about.law))
+            let mut alike = found.iter().filter(|rival| rival.effect == about.effect);
+            let doubted = about.effect == known.effect || close.contains(&about.effect);
+            doubted && about != known && alike.all(|rival| law(rival) != Some(about.law))
         })
         .collect();
     let null = (!others.is_empty()).then(|| Null::new(&without.assembly, data, unit)).flatten();
@@ -52,7 +56,7 @@ pub(super) fn rivals<'a>(
             .into_par_iter()
             .map(|held| joint(&without.assembly, data, unit, held.score.effect, &held.shape))
             .collect();
-        found.extend(others.into_iter().filter_map(told));
+        found.extend(others.into_iter().filter_map(other));
     }
     found.into_iter().partition(|rival| rival.effect != known.effect)
 }

@@ -8,8 +8,8 @@ use super::limits::Limits;
 use super::view::{Held, View};
 use super::world::World;
 use crate::assembly::Base;
-use crate::diagnose::candidates::Candidate;
-use crate::diagnose::least_squares::{Data, refine};
+use crate::diagnose::candidates::{Candidate, fit};
+use crate::diagnose::least_squares::Data;
 use crate::diagnose::monitor::Monitor;
 use crate::diagnose::noise::Noise;
 use crate::diagnose::normal::Rows;
@@ -132,7 +132,7 @@ impl<'b, 'a> Bench<'b, 'a> {
         let mut rows = self.rows.to_vec();
         rows.push(vec![world.test().scored()]);
         let data = Data { noise: &self.noise, rows: &rows, monitor: self.monitor };
-        refine(&assembly, data, &self.models[model].fitted.unit).criterion()
+        fit(assembly, data, &self.models[model].fitted.unit).criterion()
     }
 
     fn world(&self, test: &Imagined, force: Option<&Vec<f64>>) -> Option<World> {
