@@ -1,6 +1,5 @@
 """What the proposed test does to a doubt: recorded on the concealed truth, and diagnosed with the rest."""
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -20,7 +19,6 @@ class Resolved:
     trial: Trial
     before: frozenset[str]
     """What may be the effect: the name and what is not told from it; empty where none is given."""
-    name: frozenset[str]
     told: frozenset[str]
     """Those of them that the proposed test is said to tell from the name; empty: no test would."""
     after: frozenset[str]
@@ -28,7 +26,7 @@ class Resolved:
     excitation: str | None = None
     """Kind of the proposed test."""
     expected: float = 0.0
-    """Product of the chances of telling them that the tool gives."""
+    """Chance, as the tool gives it, that one effect alone is left."""
 
     @property
     def doubted(self) -> bool:
@@ -40,26 +38,17 @@ class Resolved:
         """The truth alone is left."""
         return self.after == set(self.trial.case.effects)
 
-    @property
-    def kept(self) -> bool:
-        """The truth is left, and of those that the test is said to tell from each other nothing else."""
-        truth = set(self.trial.case.effects)
-        apart = self.told if truth & (self.before - self.told - self.name) else self.told | self.name
-        return truth <= self.after and not (apart - truth) & self.after
-
 
 def run(trial: Trial) -> Resolved:
     """Diagnose, record the proposed test, diagnose again."""
     first = _diagnosed(trial, ())
     before = _said(first)
-    name = frozenset(effect.id for effect in first.effects) if first else frozenset()
     proposal = first.next_test if first else None
     told = frozenset(proposal["separates"]) & before if proposal else frozenset()
     if proposal is None or len(before) < 2 or not told:
-        return Resolved(trial, before, name, told, before)
+        return Resolved(trial, before, told, before)
     after = _said(_diagnosed(trial, (proposed(proposal, current=1.0),)))
-    expected = math.prod(proposal["chances"][id] for id in told)
-    return Resolved(trial, before, name, told, after, str(proposal["excitation"]), expected)
+    return Resolved(trial, before, told, after, str(proposal["excitation"]), float(proposal["certainty"]))
 
 
 def proposed(proposal: Mapping[str, Any], current: float) -> Excitation:

@@ -11,6 +11,9 @@ from mre_core.trial.rates import Rate
 from resolve import Resolved
 from rows import by, rate, table
 
+SURE = 0.9
+"""Chance from which a test is said to resolve a doubt."""
+
 
 def naming(found: Sequence[Outcome]) -> str:
     """Names right, by strength, and every case that is not right."""
@@ -93,7 +96,6 @@ def resolved(found: Sequence[Resolved]) -> str:
             what,
             len(own),
             f"{100 * sum(r.expected for r in own) / max(len(own), 1):.0f} %",
-            Rate(sum(r.kept for r in own), len(own)),
             Rate(sum(r.right for r in own), len(own)),
             sum(len(r.after) > 1 and set(r.trial.case.effects) <= r.after for r in own),
             sum(not set(r.trial.case.effects) <= r.after for r in own),
@@ -101,17 +103,19 @@ def resolved(found: Sequence[Resolved]) -> str:
         for what, own in groups.items()
     ]
     head = (
-        *("proposed test", "in doubt before", "the tool expects to tell what it says"),
-        *("told as it says", "truth alone after", "still in doubt", "truth lost"),
+        *("proposed test", "in doubt before", "the tool expects one effect alone after it"),
+        *("the truth alone after", "still in doubt", "truth lost"),
     )
     of_all = Rate(sum(r.right for r in tested), len(doubted))
     hopeless = [r for r in doubted if not r.told]
+    sure = [r for r in tested if r.expected >= SURE]
     text = (
         f"Of {len(found)} campaigns {len(doubted)} left several, the truth among them."
         f" In {len(hopeless)} the tool says that no test within the limits would tell: {_listed(hopeless)}."
-        f" The truth alone after a test, of all: {of_all}."
-        f" Not told as the tool says: {_listed([r for r in tested if not r.kept])}."
-        f" Told so, and still in doubt: {_listed([r for r in tested if r.kept and not r.right])}."
+        f" The truth alone after a test, of all: {of_all};"
+        f" of those where {100 * SURE:.0f} % or more is expected:"
+        f" {Rate(sum(r.right for r in sure), len(sure))}."
+        f" Not resolved: {_listed([r for r in tested if not r.right])}."
     )
     return f"{table(head, rows)}\n\n{text}"
 

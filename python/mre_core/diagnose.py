@@ -93,8 +93,8 @@ def diagnose(
         Of the next test that is proposed: ``stroke`` in mm, ``speed`` in mm/s, ``highest`` frequency in Hz,
         ``duration`` in s, ``current`` (lowest and highest, A); strokes and currents within what was tested.
         By default stroke, speed and currents of the recordings, 10 Hz or a twentieth of the sampling rate,
-        and the duration of the longest recording, but 10 to 40 s, or up to four times as long where what
-        is in doubt asks for it.
+        and the duration of the longest recording, but 10 to 40 s; where what is in doubt asks for it up to
+        eight times as long, then four times as fast, then of four times the frequency.
     blank : int
         Diagnose so many simulations of the fitted base model with its fitted noise as well: how often an
         effect is named where nothing is missing (`blank` of the result).

@@ -222,8 +222,13 @@ EXCITATIONS = {
 def next_test(best: Mapping[str, Any], separates: Sequence[str], limits: Mapping[str, Any]) -> str:
     """Say which test would resolve what is in doubt."""
     signal = EXCITATIONS[best["excitation"]].format(**best)
+    certainty = best["certainty"]
+    left = (
+        "" if certainty is None else f"; the chance that one effect alone is left is {100 * certainty:.0f} %"
+    )
     return (
-        f"{signal}, {limits['duration_s']:.3g} s long, is expected to show or to rule out {listed(separates)}"
+        f"{signal}, {limits['duration_s']:.3g} s long at {limits['rate_hz']:.4g} samples a second,"
+        f" is expected to show or to rule out {listed(separates)}{left}"
     )
 
 

@@ -113,7 +113,7 @@ fn next_test(found: &NextTest) -> Value {
             p.chances.iter().map(|(id, chance)| ((*id).to_owned(), json!(chance))).collect();
         json!({
             "excitation": p.kind.id(), "frequency_hz": p.frequency, "amplitude_mm": p.amplitude,
-            "duration_s": p.duration, "chances": chances,
+            "duration_s": p.duration, "chances": chances, "certainty": p.certainty,
         })
     };
     let l = &found.limits;

@@ -2,8 +2,9 @@
 
 use rayon::prelude::*;
 
-use super::candidates::{Candidate, candidates, joint, scores};
+use super::candidates::{Candidate, candidates, scores};
 use super::held::Held;
+use super::joint::joint;
 use super::least_squares::Data;
 use super::next_test::Rival;
 use super::null::Null;
@@ -12,7 +13,7 @@ use super::search::{Named, REFITTED, Search};
 
 /// A rival that leaves less than this much more (in squared standard deviations, a parameter's price
 /// included) cannot be told apart: the odds against it are below 150 to 1.
-const APART: f64 = 10.0;
+pub(super) const APART: f64 = 10.0;
 
 /// Models with another law in the place of an effect that was named: those of other effects, of which one law at least
 /// fits as well within the noise, and other laws of the same. A law that only its number of parameters rules out now may

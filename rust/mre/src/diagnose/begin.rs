@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::candidates::{Candidate, fit, noise_left};
+use super::candidates::{Candidate, noise_left};
+use super::joint::fit;
 use super::least_squares::{Data, Fitted, refine, refine_at_most};
 use super::monitor::Monitor;
 use super::noise::Noise;

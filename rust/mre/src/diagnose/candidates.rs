@@ -3,12 +3,12 @@
 
 use rayon::prelude::*;
 
-use super::begin::starts;
 use super::coherent::without_the_coherent;
 use super::drift::without_drift;
 use super::gaps::LeftOut;
 use super::held::Held;
-use super::least_squares::{Data, Fitted, refine, refine_at_most};
+use super::joint::{joint, unbent};
+use super::least_squares::{Data, Fitted};
 use super::noise::Noise;
 use super::null::Null;
 use super::plain_mismatch;
@@ -22,10 +22,6 @@ use crate::effect::{CATALOGUE, Effect};
 
 /// The best of them are also fitted from other shapes of the base.
 const UNBENT: usize = 2;
-/// Such fits that are kept after so many steps; the best of the last is fitted to the end.
-const STAGES: [(usize, usize); 3] = [(4, 1), (2, 2), (1, 3)];
-/// Repetitions of a fit whose effect follows from the force.
-const PASSES: usize = 4;
 /// Candidates closer than this in the criterion fit about equally well.
 const TIE: f64 = 4.0;
 /// Differences in the criterion below this come from where a fit stops.
@@ -172,59 +168,6 @@ fn promising<'s>(null: &Null, scores: &'s [Score], most: usize) -> Vec<Held<'s>>
         }
     }
     kept
-}
-
-/// Joint fit of a model with one more law, from the law's strongest start.
-pub(super) fn joint<'a>(
-    assembly: &Assembly<'a>,
-    data: Data,
-    unit: &[f64],
-    effect: &'static dyn Effect,
-    start: &[f64],
-) -> Candidate<'a> {
-    let mut effects = assembly.effects().to_vec();
-    effects.push(effect);
-    let wider = assembly.with(effects);
-    let mut shapes = assembly.physical(unit);
-    shapes.extend_from_slice(start);
-    let unit = wider.unit(&shapes);
-    fit(wider, data, &unit)
-}
-
-/// Fit from a point of the unit box; repeated where an effect follows from the force that is fitted.
-pub(super) fn fit<'a>(mut assembly: Assembly<'a>, data: Data, unit: &[f64]) -> Candidate<'a> {
-    let mut fitted = refine(&assembly, data, unit);
-    if assembly.flexibility(&assembly.physical(&fitted.unit)).is_some() {
-        for _ in 0..PASSES {
-            assembly = assembly.seeing_its_force(&fitted.unit, &fitted.coefficients);
-            fitted = refine(&assembly, data, &fitted.unit);
-        }
-    }
-    Candidate { assembly, fitted }
-}
-
-/// The better of a fit and of fits from other shapes of the base: its own have bent to hide the effect. Those
-/// that fall behind are given up early.
-pub(super) fn unbent<'a>(candidate: Candidate<'a>, data: Data) -> Candidate<'a> {
-    let known = candidate.assembly.base_shapes();
-    let mut running: Vec<Vec<f64>> = starts(candidate.assembly.base())
-        .into_iter()
-        .filter(|start| !start.is_empty())
-        .map(|start| start.into_iter().chain(candidate.fitted.unit[known..].iter().copied()).collect())
-        .collect();
-    let mut best: Option<Fitted> = None;
-    for (kept, steps) in STAGES {
-        let mut fitted: Vec<Fitted> =
-            running.par_iter().map(|unit| refine_at_most(&candidate.assembly, data, unit, steps)).collect();
-        fitted.sort_by(|a, b| a.left.total_cmp(&b.left));
-        fitted.truncate(kept);
-        running = fitted.iter().map(|f| f.unit.clone()).collect();
-        best = fitted.into_iter().next();
-    }
-    match best {
-        Some(best) if best.left < candidate.fitted.left => fit(candidate.assembly, data, &best.unit),
-        _ => candidate,
-    }
 }
 
 /// Joint fits of the most promising laws, best first.

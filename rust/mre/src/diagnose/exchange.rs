@@ -2,7 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::candidates::{Candidate, candidates, joint, margin, scores};
+use super::candidates::{Candidate, candidates, margin, scores};
+use super::joint::joint;
 use super::least_squares::Data;
 use super::monitor::Stage;
 use super::noise::Noise;

@@ -1,8 +1,9 @@
 //! Judgement of a model that was found: what is left beside it, and whether its names are to be trusted.
 
 use super::begin::Begun;
-use super::candidates::{Candidate, fit};
+use super::candidates::Candidate;
 use super::exchange::CLEAR;
+use super::joint::fit;
 use super::least_squares::{Data, Fitted, refine};
 use super::missing::{Generic, Mismatch};
 use super::monitor::Monitor;

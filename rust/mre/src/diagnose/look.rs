@@ -1,6 +1,7 @@
 //! A look at what the catalogue offers beside a model, and whether the best of it is significant.
 
-use super::candidates::{Candidate, by_effect, candidates, fit, noise_left, scores};
+use super::candidates::{Candidate, by_effect, candidates, noise_left, scores};
+use super::joint::fit;
 use super::monitor::Stage;
 use super::noise::Noise;
 use super::resolution::nothing_left;

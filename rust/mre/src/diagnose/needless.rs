@@ -1,6 +1,7 @@
 //! Models without one of their effects.
 
-use super::candidates::{Candidate, fit};
+use super::candidates::Candidate;
+use super::joint::fit;
 use super::least_squares::Data;
 use super::monitor::Stage;
 use super::noise::Noise;

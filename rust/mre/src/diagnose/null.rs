@@ -9,12 +9,22 @@ use super::point::Point;
 use crate::assembly::Assembly;
 use crate::effect::{Effect, Scene};
 use crate::kernel::filter::dot;
+use crate::recording::Condition;
 
 /// What may be noise of a derived motion, whitened: the force does not follow it, so that every coefficient of it is
-/// possible.
+/// possible; and every dependence of that on a current that changes.
 fn noisy(assembly: &Assembly, data: Data, r: usize) -> impl Iterator<Item = Vec<f64>> {
+    let recording = &assembly.campaign().recordings()[r];
+    let current = match recording.current() {
+        Condition::Series(current) if recording.current().varies() => Some(current),
+        _ => None,
+    };
     let all = assembly.campaign().doubts()[r].noisy.iter().flatten();
-    all.map(move |series| whitened(data.noise, r, &data.rows[r], series))
+    let under = move |series: &Vec<f64>| {
+        let product = |current: &Vec<f64>| series.iter().zip(current).map(|(s, i)| s * i).collect();
+        std::iter::once(series.clone()).chain(current.map(product))
+    };
+    all.flat_map(under).map(move |series| whitened(data.noise, r, &data.rows[r], &series))
 }
 
 /// Orthogonal complement of the tangents of a fitted model, by recording.

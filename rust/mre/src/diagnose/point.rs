@@ -5,12 +5,11 @@ use rayon::prelude::*;
 use super::bounded;
 use super::clipped::{clipped, clipped_as_measured};
 use super::least_squares::{Data, Fitted};
+use super::moves::Moves;
 use super::normal::{Normal, whitened};
 use crate::assembly::{Assembly, Columns};
 use crate::kernel::filter::dot;
 
-/// Step of the difference quotients, in the unit box.
-const STEP: f64 = 1e-4;
 /// Recordings whose columns are made at a time: as many as a kernel has lanes, and no more are kept.
 const TOGETHER: usize = 8;
 /// Fits at most until those samples are clipped whose force is beyond the level.
@@ -129,42 +128,22 @@ impl Point {
 
     /// Whitened tangents of the shapes that bear on each recording.
     pub(super) fn tangents(&self, assembly: &Assembly, data: Data) -> Vec<Vec<(usize, Vec<f64>)>> {
-        let here = assembly.physical(&self.fitted.unit);
-        let assembly = &assembly.knowing(&here);
-        let (k, count) = (self.fitted.coefficients.len(), self.recordings.len());
-        let moved: Vec<(f64, Vec<f64>)> = (0..self.fitted.unit.len())
-            .map(|j| {
-                let mut unit = self.fitted.unit.clone();
-                let step = if unit[j] + STEP > 1.0 { -STEP } else { STEP };
-                unit[j] += step;
-                let mut shapes = assembly.physical(&unit);
-                // Only one moves: the others stay to the bit, so that what is known of them is found.
-                for (i, shape) in shapes.iter_mut().enumerate().filter(|(i, _)| *i != j) {
-                    *shape = here[i];
-                }
-                (step, shapes)
-            })
-            .collect();
-        let places: Vec<(usize, usize)> = (0..count)
-            .flat_map(|r| (0..moved.len()).filter(move |j| assembly.bears(*j, r)).map(move |j| (r, j)))
-            .collect();
+        let assembly = &assembly.knowing(&assembly.physical(&self.fitted.unit));
+        let moves = Moves::of(assembly, &self.fitted);
+        let count = self.recordings.len();
+        let places: Vec<(usize, usize)> =
+            (0..count).flat_map(|r| moves.bearing(assembly, r).map(move |j| (r, j))).collect();
         let mut found = vec![Vec::new(); count];
         for places in places.chunks(TOGETHER) {
-            let jobs: Vec<(usize, &[f64])> =
-                places.iter().map(|(r, j)| (*r, moved[*j].1.as_slice())).collect();
+            let jobs: Vec<(usize, &[f64])> = places.iter().map(|(r, j)| (*r, moves.shapes(*j))).collect();
             let changes: Vec<(usize, Vec<f64>)> = assembly
                 .columns_of(&jobs)
                 .into_par_iter()
                 .zip(places)
                 .map(|(columns, (r, j))| {
-                    let mut change = columns.measured(&self.fitted.coefficients);
-                    for (value, before) in change.iter_mut().zip(&self.recordings[*r].force) {
-                        *value = (*value - before) / moved[*j].0;
-                        if !value.is_finite() {
-                            *value = 0.0;
-                        }
-                    }
-                    (k + j, whitened(data.noise, *r, &data.rows[*r], &change))
+                    let (coefficients, before) = (&self.fitted.coefficients, &self.recordings[*r].force);
+                    let (place, change) = moves.slope(*j, &columns, coefficients, before);
+                    (place, whitened(data.noise, *r, &data.rows[*r], &change))
                 })
                 .collect();
             for (change, (r, _)) in changes.into_iter().zip(places) {

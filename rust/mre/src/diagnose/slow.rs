@@ -1,7 +1,8 @@
 //! p-values of effects that are as slow as slow noise.
 
-use super::candidates::{joint, residuals};
+use super::candidates::residuals;
 use super::drift::{beside, chance_beside};
+use super::joint::joint;
 use super::least_squares::Data;
 use super::null::Null;
 use super::screen::Score;

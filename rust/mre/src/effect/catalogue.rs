@@ -62,6 +62,8 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &Hysteresis::Jenkins,
     &Hysteresis::Iwan,
     &Hysteresis::PowerIwan,
+    &Hysteresis::Play,
+    &Hysteresis::Plays,
     &WithCurrent {
         law: &Hysteresis::BoucWen,
         name: "Bouc-Wen, with the current",

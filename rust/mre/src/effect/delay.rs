@@ -8,10 +8,8 @@
 //! sharply, a spline through its force swings.
 
 use super::{About, Effect, Motion, Scene, Sizes, within};
+use crate::kernel::spline::second_differences;
 use crate::parameter::Parameter;
-
-/// From here on the elimination of a spline has the same factor, to the last bit.
-const SETTLED: usize = 32;
 
 /// What is shifted, and what is measured of a force that is from before a recording began, or from after it ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -48,26 +46,6 @@ pub(super) fn delayed(step: f64, series: &[f64], delay: f64) -> Vec<f64> {
             a * series[k] + b * series[k + 1] + curved_a * bend[k] + curved_b * bend[k + 1]
         })
         .collect()
-}
-
-/// Second derivatives, per step squared, of the natural cubic spline through evenly spaced values.
-pub(super) fn second_differences(y: &[f64]) -> Vec<f64> {
-    let n = y.len();
-    // Tridiagonal: m[i-1] + 4 m[i] + m[i+1] = 6 (y[i-1] - 2 y[i] + y[i+1]). The shares of the elimination soon
-    // stay the same.
-    let mut shares = [0.0; SETTLED];
-    for i in 1..SETTLED {
-        shares[i] = 1.0 / (4.0 - shares[i - 1]);
-    }
-    let share = |i: usize| shares[i.min(SETTLED - 1)];
-    let mut bend = vec![0.0; n];
-    for i in 1..n - 1 {
-        bend[i] = (6.0 * (y[i - 1] - 2.0 * y[i] + y[i + 1]) - bend[i - 1]) * share(i);
-    }
-    for i in (1..n - 1).rev() {
-        bend[i] -= share(i) * bend[i + 1];
-    }
-    bend
 }
 
 impl Effect for TimeDelay {

@@ -14,8 +14,8 @@ use std::f64::consts::{SQRT_2, TAU};
 
 use nalgebra::Complex;
 
-use super::delay::second_differences;
 use super::{About, Effect, Motion, Scene, Sizes, order_within};
+use crate::kernel::spline::second_differences;
 use crate::parameter::Parameter;
 
 /// Which channel is filtered, and how.

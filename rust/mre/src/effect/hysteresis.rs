@@ -10,11 +10,12 @@
 //! | `r`, `r_max` | yield displacement, and the largest of a distribution | mm | 5 % to 90 % (300 %) of the stroke |
 //! | q | exponent of the distribution: yields below r have the share (`r/r_max`)^q | - | 0.2 to 4 |
 //!
+//! Elements yield and lag behind the force; play operators are what they leave of the displacement, and lag ahead.
 //! Reference: Ikhouane and Rodellar 2005, <https://doi.org/10.1007/s11071-005-0069-3>; Iwan, J. Appl. Mech. 33
 //! (1966) 893; Segalman, J. Appl. Mech. 72 (2005) 752.
 //! Known limit: yields below 5 % of the stroke are friction; above the stroke, they are stiffness.
 
-use super::operators::stop;
+use super::operators::{play, stop};
 use super::{About, Effect, Scene, Sizes, ideal_above, ideal_below, order_within, orders, positive, within};
 use crate::kernel::hysteretic;
 use crate::parameter::{Parameter, Scale};
@@ -33,6 +34,10 @@ pub(super) enum Hysteresis {
     Iwan,
     /// A power distribution.
     PowerIwan,
+    /// One play operator.
+    Play,
+    /// A uniform distribution of play operators.
+    Plays,
 }
 
 /// Elements in parallel whose yields have the cumulated share `(r / largest)^q`; stiffness one in all.
@@ -45,6 +50,10 @@ fn parallel(scene: &Scene, largest: f64, q: f64) -> Vec<f64> {
         }
     }
     sum
+}
+
+fn less(series: &[f64], by: &[f64]) -> Vec<f64> {
+    series.iter().zip(by).map(|(s, b)| s - b).collect()
 }
 
 /// Normalised hysteretic variable for a shape `[rho, sigma, n]`.
@@ -85,6 +94,18 @@ impl Effect for Hysteresis {
                 reference: "Segalman 2005",
                 ..bouc_wen
             },
+            Self::Play => About {
+                law: "play operator",
+                equation: "F_h = k_h q, q = play of half width r of x",
+                reference: "Prandtl 1928; Ishlinskii 1944",
+                ..bouc_wen
+            },
+            Self::Plays => About {
+                law: "Prandtl-Ishlinskii, uniform widths",
+                equation: "F_h = k_h mean of q(r) over r from 0 to r_max",
+                reference: "Prandtl 1928; Ishlinskii 1944",
+                ..bouc_wen
+            },
         }
     }
 
@@ -100,8 +121,8 @@ impl Effect for Hysteresis {
                 ideal_below(within("sigma", "", 0.5, 2.0)),
                 ideal_above(ideal_below(Parameter { scale: Scale::Log, ..within("n", "", 1.0, 5.0) })),
             ],
-            Self::Jenkins => vec![order_within("r", "mm", 0.05 * x, 0.9 * x)],
-            Self::Iwan => vec![order_within("r_max", "mm", 0.1 * x, 3.0 * x)],
+            Self::Jenkins | Self::Play => vec![order_within("r", "mm", 0.05 * x, 0.9 * x)],
+            Self::Iwan | Self::Plays => vec![order_within("r_max", "mm", 0.1 * x, 3.0 * x)],
             Self::PowerIwan => {
                 vec![
                     order_within("r_max", "mm", 0.1 * x, 3.0 * x),
@@ -118,8 +139,12 @@ impl Effect for Hysteresis {
                 .into_iter()
                 .flat_map(|share| [vec![1.0 / (share * x), 0.8, 1.0], vec![1.0 / (share * x), 0.6, 2.5]])
                 .collect(),
-            Self::Jenkins => orders(0.05, 0.85, 7).into_iter().map(|share| vec![share * x]).collect(),
-            Self::Iwan => orders(0.12, 2.5, 6).into_iter().map(|share| vec![share * x]).collect(),
+            Self::Jenkins | Self::Play => {
+                orders(0.05, 0.85, 7).into_iter().map(|share| vec![share * x]).collect()
+            }
+            Self::Iwan | Self::Plays => {
+                orders(0.12, 2.5, 6).into_iter().map(|share| vec![share * x]).collect()
+            }
             Self::PowerIwan => orders(0.2, 2.0, 4)
                 .into_iter()
                 .flat_map(|share| [vec![share * x, 0.4], vec![share * x, 2.0]])
@@ -133,6 +158,8 @@ impl Effect for Hysteresis {
             Self::Jenkins => stop(scene.displacement, shape[0]),
             Self::Iwan => parallel(scene, shape[0], 1.0),
             Self::PowerIwan => parallel(scene, shape[0], shape[1]),
+            Self::Play => play(scene.displacement, shape[0]),
+            Self::Plays => less(scene.displacement, &parallel(scene, shape[0], 1.0)),
         }]
     }
 }

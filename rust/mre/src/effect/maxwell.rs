@@ -5,7 +5,7 @@
 //! | `k_m`, `k_1`, `k_2` | stiffness of a branch | N/mm | >= 0 |
 //! | tau, `tau_1`, `tau_2` | relaxation time of a branch | s | two samples to a third of the longest recording |
 //!
-//! Integrated exactly for a velocity that is linear between samples.
+//! Integrated exactly for the cubic spline through a velocity that is sampled evenly.
 //! Reference: Ferry, Viscoelastic Properties of Polymers, 1980.
 //! Known limit: at one steady frequency a branch is part of k0 and c0.
 

@@ -3,6 +3,7 @@
 //! | symbol | meaning | unit | range |
 //! |---|---|---|---|
 //! | `f_r` | flexibility of the rig, 1/`k_r`; of a joint at the largest force `F_m` | mm/N | 0 to half the flexibility of the device |
+//! | P | preload of a joint | N | 1 % to 300 % of the largest force |
 //! | `t_r` | retardation time of a rig that gives way slowly | s | a fifth of a sample to half the longest recording |
 //!
 //! The force that bends the rig is that of the device, as far as it is known.
@@ -10,8 +11,10 @@
 //! Mechanics, 1985) gives way by the power 2/3 of its force.
 //! Known limit: for a linear device it is part of k0 and c0.
 
+use std::borrow::Cow;
+
 use super::operators::{each, lag, slope};
-use super::{About, Effect, Motion, Scene, Sizes, ideal_below, order_within, within};
+use super::{About, Effect, Motion, Scene, Sizes, ideal_above, ideal_below, order_within, within};
 use crate::parameter::Parameter;
 
 /// How the rig gives way.
@@ -25,12 +28,9 @@ pub(super) enum Rig {
     Joint,
 }
 
-/// Force over the largest at which a joint sits as if it had been loaded before: it has some preload.
-const PRELOAD: f64 = 1.0 / 33.0;
-
 /// What a joint gives way to under a force, as a force: the same at the largest.
-fn stiffening(force: f64, largest: f64) -> f64 {
-    let set = |force: f64| (1.0 + force / (PRELOAD * largest)).powf(2.0 / 3.0) - 1.0;
+fn stiffening(force: f64, preload: f64, largest: f64) -> f64 {
+    let set = |force: f64| (1.0 + force / preload).powf(2.0 / 3.0) - 1.0;
     largest * set(force.abs()).copysign(force) / set(largest)
 }
 
@@ -55,7 +55,7 @@ impl Effect for Rig {
                 law: "joint in series",
                 limit: "F_m is the largest force measured; for a linear device it is part of k0 and c0",
                 plain: "a joint of the fixture gives way, so that the device moves less than was measured",
-                equation: "the device sees x - f_r F_m s(F/F_m), s(r) = sgn(r) ((1 + 33 |r|)^(2/3) - 1)/(34^(2/3) - 1)",
+                equation: "the device sees x - f_r F_m s(F)/s(F_m), s(F) = sgn(F) ((1 + |F|/P)^(2/3) - 1)",
                 reference: "Johnson, Contact Mechanics, 1985",
                 ..spring
             },
@@ -64,8 +64,15 @@ impl Effect for Rig {
 
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
         let mut shape = vec![within("f_r", "mm/N", 0.0, 0.5 * sizes.displacement / sizes.force)];
-        if *self == Self::Viscoelastic {
-            shape.push(ideal_below(order_within("t_r", "s", 0.2 * sizes.step, 0.5 * sizes.duration)));
+        match self {
+            Self::Spring => {}
+            Self::Viscoelastic => {
+                shape.push(ideal_below(order_within("t_r", "s", 0.2 * sizes.step, 0.5 * sizes.duration)));
+            }
+            Self::Joint => {
+                let preload = order_within("P", "N", 0.01 * sizes.force, 3.0 * sizes.force);
+                shape.push(ideal_above(ideal_below(preload)));
+            }
         }
         shape
     }
@@ -73,10 +80,11 @@ impl Effect for Rig {
     fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
         let [flexible, soft] = [0.03, 0.2].map(|share| share * sizes.displacement / sizes.force);
         match self {
-            Self::Spring | Self::Joint => vec![vec![flexible], vec![soft]],
+            Self::Spring => vec![vec![flexible], vec![soft]],
+            Self::Joint => vec![vec![flexible, 0.03 * sizes.force], vec![soft, 0.3 * sizes.force]],
             Self::Viscoelastic => {
                 let slow = [0.003, 0.03, 0.2].map(|share| (share * sizes.duration).max(2.0 * sizes.step));
-                [sizes.step].into_iter().chain(slow).map(|t_r| vec![flexible, t_r]).collect()
+                [sizes.step].into_iter().chain(slow).map(|t_r| vec![0.5 * soft, t_r]).collect()
             }
         }
     }
@@ -86,17 +94,22 @@ impl Effect for Rig {
     }
 
     fn motion(&self, scene: &Scene, shape: &[f64]) -> Option<Motion> {
-        let other = match self {
-            Self::Spring => None,
-            Self::Viscoelastic => Some(lag(scene.time, scene.whole, shape[1], scene.whole[0])),
-            Self::Joint => Some(each(scene.whole, |force| stiffening(force, scene.sizes.force))),
+        let whole = scene.whole;
+        let (force, rate) = match self {
+            Self::Spring => (Cow::Borrowed(whole), slope(scene.time, whole)),
+            Self::Viscoelastic => {
+                let bent = lag(scene.time, whole, shape[1], whole[0]);
+                let rate = whole.iter().zip(&bent).map(|(now, bent)| (now - bent) / shape[1]).collect();
+                (Cow::Owned(bent), rate)
+            }
+            Self::Joint => {
+                let set = each(whole, |force| stiffening(force, shape[1], scene.sizes.force));
+                let rate = slope(scene.time, &set);
+                (Cow::Owned(set), rate)
+            }
         };
-        let force = other.as_deref().unwrap_or(scene.whole);
         let less =
             |series: &[f64], by: &[f64]| series.iter().zip(by).map(|(a, b)| a - shape[0] * b).collect();
-        Some(Motion {
-            displacement: less(scene.displacement, force),
-            velocity: less(scene.velocity, &slope(scene.time, force)),
-        })
+        Some(Motion { displacement: less(scene.displacement, &force), velocity: less(scene.velocity, &rate) })
     }
 }

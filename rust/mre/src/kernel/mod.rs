@@ -23,6 +23,7 @@ mod sinh;
 pub(crate) mod sinh_compressed;
 mod sinh_direct;
 mod sinh_series;
+pub(crate) mod spline;
 mod total;
 pub(crate) mod triangle;
 

@@ -2,13 +2,14 @@
 
 use rayon::prelude::*;
 
-use super::doubt::{Doubt, Told};
+use super::doubt::{Doubt, Member, Told, told};
 use super::excitation::{Kind, Signal};
 use super::limits::Limits;
 use super::view::{Held, View};
 use super::world::World;
 use crate::assembly::Base;
-use crate::diagnose::candidates::{Candidate, fit};
+use crate::diagnose::candidates::Candidate;
+use crate::diagnose::joint::fit;
 use crate::diagnose::least_squares::Data;
 use crate::diagnose::monitor::Monitor;
 use crate::diagnose::noise::Noise;
@@ -23,12 +24,15 @@ const FINEST: f64 = 8.0;
 /// The models, and what the recordings know of them.
 pub(super) struct Bench<'b, 'a> {
     base: &'b Base,
-    doubt: &'b Doubt<'a>,
     rows: &'b [Rows],
     monitor: &'b dyn Monitor,
     /// Of the recordings and of the test.
     noise: Noise,
     models: Vec<Candidate<'a>>,
+    /// What may stand in each place in doubt.
+    places: Vec<Vec<Member>>,
+    /// Models that may be true, the one named first.
+    truths: Vec<usize>,
     held: Vec<Held>,
 }
 
@@ -36,7 +40,7 @@ pub(super) struct Bench<'b, 'a> {
 pub(super) struct Imagined {
     signal: Signal,
     velocity: Option<Vec<f64>>,
-    /// Force in N of each of [`Doubt::truths`].
+    /// Force in N of each of [`Bench::truths`].
     forces: Vec<Vec<f64>>,
 }
 
@@ -44,14 +48,18 @@ impl<'b, 'a> Bench<'b, 'a> {
     pub(super) fn new(
         named: &Named<'a>,
         base: &'b Base,
-        doubt: &'b Doubt<'a>,
+        doubt: &Doubt<'a>,
         rows: &'b [Rows],
         monitor: &'b dyn Monitor,
     ) -> Self {
         let models = doubt.models(named);
         let data = Data { noise: &named.noise, rows, monitor };
         let held = models.par_iter().map(|model| Held::of(model, data)).collect();
-        Self { base, doubt, rows, monitor, noise: named.noise.with_another_like(0), models, held }
+        let places = doubt.places(&models);
+        let rivals = places.iter().flatten().map(|member| member.likeliest).filter(|model| *model > 0);
+        let truths = std::iter::once(0).chain(rivals).collect();
+        let noise = named.noise.with_another_like(0);
+        Self { base, rows, monitor, noise, models, places, truths, held }
     }
 
     /// A test; `None` where the limits leave no room for it, or a model cannot follow it.
@@ -60,11 +68,11 @@ impl<'b, 'a> Bench<'b, 'a> {
         let fine = kind.signal(&Limits { rate: times * limits.rate, ..limits.clone() })?;
         let known = self.models[0].assembly.campaign();
         let world = World::new(known, self.base, &fine, None, None)?;
-        let truths = self.doubt.truths(&self.models);
         let every = |series: &[f64]| series.iter().step_by(times as usize).copied().collect::<Vec<f64>>();
-        let forces = truths
+        let forces = self
+            .truths
             .par_iter()
-            .map(|(truth, _)| world.simulated(&self.models[*truth]).map(|force| every(&force)))
+            .map(|truth| world.simulated(&self.models[*truth]).map(|force| every(&force)))
             .collect::<Option<Vec<Vec<f64>>>>()?;
         // A velocity that was recorded will be again.
         let derived = known.recordings()[0].velocity_window().is_some();
@@ -79,7 +87,7 @@ impl<'b, 'a> Bench<'b, 'a> {
     }
 
     /// What the test tells to first order: every model bends as far as the recordings let it.
-    pub(super) fn glance(&self, test: &Imagined) -> Option<Vec<Told>> {
+    pub(super) fn glance(&self, test: &Imagined) -> Option<Told> {
         let world = self.world(test, None)?;
         let views: Vec<View> = self
             .models
@@ -88,56 +96,66 @@ impl<'b, 'a> Bench<'b, 'a> {
             .map(|(model, held)| View::new(&world, model, held, &self.noise))
             .collect();
         let more = (self.known_samples() + test.signal.time.len()) as f64 / self.known_samples() as f64;
-        let criterion = |model: usize, force: &[f64]| {
+        let criterion = |t: usize, model: usize| {
             let fitted = &self.models[model].fitted;
             let price = fitted.parameters() as f64 * more.ln();
-            fitted.criterion() + price + views[model].lack(force, &self.noise)
+            fitted.criterion() + price + views[model].lack(&test.forces[t], &self.noise)
         };
-        self.monitor.whole(self.told(test, |_, force, model| Some(criterion(model, force))))
+        self.monitor.whole(self.told(criterion))
     }
 
     /// What the test tells when every model is fitted to it and the recordings.
-    pub(super) fn look(&self, test: &Imagined) -> Option<Vec<Told>> {
-        let truths = self.doubt.truths(&self.models);
+    pub(super) fn look(&self, test: &Imagined) -> Option<Told> {
         let worlds: Vec<World> =
             test.forces.iter().map(|force| self.world(test, Some(force))).collect::<Option<_>>()?;
-        let jobs: Vec<(usize, usize)> = truths
-            .iter()
-            .enumerate()
-            .flat_map(|(t, (truth, others))| {
-                std::iter::once(*truth).chain(others.iter().copied()).map(move |model| (t, model))
-            })
-            .collect();
-        let fitted: Vec<f64> = jobs.par_iter().map(|(t, model)| self.fitted(&worlds[*t], *model)).collect();
-        let known = |t: usize, model: usize| {
-            jobs.iter().position(|job| *job == (t, model)).map(|place| fitted[place])
-        };
-        self.monitor.whole(self.told(test, |t, _, model| known(t, model)))
+        self.monitor.whole(self.told(|t, model| self.fitted(&worlds[t], model)))
     }
 
-    /// What each effect in doubt is told by, given the criterion of a model where a truth shows a force.
-    fn told(&self, test: &Imagined, criterion: impl Fn(usize, &[f64], usize) -> Option<f64>) -> Vec<Told> {
-        let truths = self.doubt.truths(&self.models);
-        self.doubt.told(&self.models, |truth, other| {
-            let t = truths.iter().position(|(known, _)| *known == truth)?;
-            let of = |model| criterion(t, &test.forces[t], model);
-            let difference = of(other)? - of(truth)?;
+    /// What is told, given the criterion of a model where one of the truths shows its force.
+    fn told(&self, criterion: impl Fn(usize, usize) -> f64 + Sync) -> Told {
+        let of = |(t, truth): (usize, &usize)| {
+            let beside =
+                self.places.iter().filter(move |members| members.iter().any(|m| m.likeliest == *truth));
+            let mut models: Vec<usize> = beside.flatten().flat_map(|m| m.models.iter().copied()).collect();
+            models.sort_unstable();
+            models.dedup();
+            models.into_iter().map(move |model| (t, model))
+        };
+        let jobs: Vec<(usize, usize)> = self.truths.iter().enumerate().flat_map(of).collect();
+        let found: Vec<f64> = jobs.par_iter().map(|(t, model)| criterion(*t, *model)).collect();
+        let known = |job: (usize, usize)| jobs.iter().position(|j| *j == job).map(|place| found[place]);
+        told(&self.places, &self.models, |truth, other| {
+            let t = self.truths.iter().position(|known| *known == truth).unwrap_or(0);
+            let difference = known((t, other)).zip(known((t, truth))).map_or(0.0, |(o, own)| o - own);
             // Where neither can follow the test, it tells nothing.
-            Some(if difference.is_nan() { 0.0 } else { difference })
+            if difference.is_nan() { 0.0 } else { difference }
         })
     }
 
     fn fitted(&self, world: &World, model: usize) -> f64 {
-        let assembly = world.assembly(&self.models[model]);
-        let mut rows = self.rows.to_vec();
-        rows.push(vec![world.test().scored()]);
-        let data = Data { noise: &self.noise, rows: &rows, monitor: self.monitor };
-        fit(assembly, data, &self.models[model].fitted.unit).criterion()
+        let rows = self.rows_with(world);
+        fit(world.assembly(&self.models[model]), self.data(&rows), &self.models[model].fitted.unit)
+            .criterion()
     }
 
-    fn world(&self, test: &Imagined, force: Option<&Vec<f64>>) -> Option<World> {
+    /// The model named, and its force in N in a test.
+    pub(super) fn named<'t>(&self, test: &'t Imagined) -> (&Candidate<'a>, &'t [f64]) {
+        (&self.models[0], &test.forces[0])
+    }
+
+    /// Samples that count, those of a test among them.
+    pub(super) fn rows_with(&self, world: &World) -> Vec<Rows> {
+        self.rows.iter().cloned().chain([vec![world.test().scored()]]).collect()
+    }
+
+    pub(super) fn data<'d>(&'d self, rows: &'d [Rows]) -> Data<'d> {
+        Data { noise: &self.noise, rows, monitor: self.monitor }
+    }
+
+    /// The recordings with a test that shows a force in N.
+    pub(super) fn world(&self, test: &Imagined, force: Option<&[f64]>) -> Option<World> {
         let known = self.models[0].assembly.campaign();
-        World::new(known, self.base, &test.signal, test.velocity.clone(), force.cloned())
+        World::new(known, self.base, &test.signal, test.velocity.clone(), force.map(<[f64]>::to_vec))
     }
 
     fn known_samples(&self) -> usize {

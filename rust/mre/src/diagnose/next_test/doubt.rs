@@ -1,11 +1,14 @@
 //! What is in doubt, and the chance that evidence settles it.
 
+use crate::diagnose::alternatives::APART;
 use crate::diagnose::candidates::Candidate;
 use crate::diagnose::distribution::normal_tail;
 use crate::diagnose::search::Named;
 
-/// Difference in the criterion from which two effects are told apart.
-const APART: f64 = 10.0;
+/// Difference in the criterion beyond which more is no better.
+const PLENTY: f64 = 100.0;
+/// What that is worth beside a chance.
+const SURER: f64 = 0.05;
 /// Logarithm of the highest odds that are told of a rival: where it is as good as certain.
 const MOST_ODDS: f64 = 50.0;
 
@@ -28,14 +31,25 @@ pub(in super::super) struct Doubt<'a> {
     pub(in super::super) hidden: Vec<&'static str>,
 }
 
-/// What an excitation is expected to tell of an effect in doubt.
-#[derive(Debug, Clone, Copy)]
+/// One of the effects that may stand in a place.
+pub(super) struct Member {
+    /// `None`: the one named.
+    effect: Option<&'static str>,
+    /// Its likeliest model.
+    pub(super) likeliest: usize,
+    /// All of its models.
+    pub(super) models: Vec<usize>,
+}
+
+/// What an excitation is expected to tell of effects in doubt.
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Told {
-    pub(super) effect: &'static str,
-    /// Chance that it is told from the one named, whichever of the two is true.
-    pub(super) chance: f64,
-    /// Least difference in the criterion that is expected.
-    pub(super) evidence: f64,
+    /// Chance that each is told from the one named, whichever of the two is true.
+    pub(super) chances: Vec<(&'static str, f64)>,
+    /// Chance that nothing is in doubt any more.
+    pub(super) certainty: f64,
+    /// How many effects are ruled out, and a little for more evidence than that takes.
+    pub(super) worth: f64,
 }
 
 impl<'a> Doubt<'a> {
@@ -45,63 +59,82 @@ impl<'a> Doubt<'a> {
         std::iter::once(named.itself()).chain(others).collect()
     }
 
-    /// Ids of the effects in doubt.
-    fn effects(&self) -> Vec<&'static str> {
-        let mut found: Vec<&'static str> = Vec::new();
-        for rival in &self.rivals {
-            if !found.contains(&rival.effect) {
-                found.push(rival.effect);
+    /// What may stand in each place in doubt, the effect named first.
+    pub(super) fn places(&self, models: &[Candidate]) -> Vec<Vec<Member>> {
+        let mut places: Vec<usize> = self.rivals.iter().map(|rival| rival.place).collect();
+        places.dedup();
+        places.into_iter().map(|place| self.members(place, models)).collect()
+    }
+
+    fn members(&self, place: usize, models: &[Candidate]) -> Vec<Member> {
+        let first = 1 + self.laws.len();
+        let laws = self.laws.iter().enumerate().filter(|(_, law)| law.place == place).map(|(i, _)| 1 + i);
+        let mut found =
+            vec![Member { effect: None, likeliest: 0, models: std::iter::once(0).chain(laws).collect() }];
+        for (i, rival) in self.rivals.iter().enumerate().filter(|(_, rival)| rival.place == place) {
+            match found.iter_mut().find(|member| member.effect == Some(rival.effect)) {
+                Some(member) => member.models.push(first + i),
+                None => found.push(Member {
+                    effect: Some(rival.effect),
+                    likeliest: first + i,
+                    models: vec![first + i],
+                }),
             }
         }
-        found
-    }
-
-    /// Places among the models of those of an effect.
-    fn of(&self, effect: &'static str) -> impl Iterator<Item = usize> {
-        let own = self.rivals.iter().enumerate().filter(move |(_, rival)| rival.effect == effect);
-        own.map(|(i, _)| 1 + self.laws.len() + i)
-    }
-
-    /// The likeliest model of an effect.
-    fn likeliest(&self, effect: &'static str, models: &[Candidate]) -> Option<usize> {
-        self.of(effect).min_by(|a, b| models[*a].criterion().total_cmp(&models[*b].criterion()))
-    }
-
-    /// Places of the models that may be true: the one named, and the likeliest of each effect; with those that evidence
-    /// has to rule out then.
-    pub(super) fn truths(&self, models: &[Candidate]) -> Vec<(usize, Vec<usize>)> {
-        let rivals = (1 + self.laws.len()..models.len()).collect();
-        let mut found = vec![(0, rivals)];
-        for effect in self.effects() {
-            let Some(truth) = self.likeliest(effect, models) else { continue };
-            let place = self.rivals[truth - 1 - self.laws.len()].place;
-            let laws = self.laws.iter().enumerate().filter(|(_, law)| law.place == place);
-            found.push((truth, std::iter::once(0).chain(laws.map(|(i, _)| 1 + i)).collect()));
+        for member in &mut found[1..] {
+            let likeliest = member.models.iter().min_by(|a, b| criterion(models, **a, **b));
+            member.likeliest = *likeliest.unwrap_or(&member.likeliest);
         }
         found
     }
+}
 
-    /// What evidence tells, given the difference in the criterion by which a first model that is true rules out a second.
-    pub(super) fn told(
-        &self,
-        models: &[Candidate],
-        against: impl Fn(usize, usize) -> Option<f64>,
-    ) -> Vec<Told> {
-        let truths = self.truths(models);
-        let least = |truth: usize, others: &mut dyn Iterator<Item = usize>| {
-            others.filter_map(|other| against(truth, other)).fold(f64::INFINITY, f64::min)
+fn criterion(models: &[Candidate], a: usize, b: usize) -> std::cmp::Ordering {
+    models[a].criterion().total_cmp(&models[b].criterion())
+}
+
+/// What evidence tells of what may stand in each place, given the difference in the criterion by which a first model that
+/// is true rules out a second.
+pub(super) fn told(
+    places: &[Vec<Member>],
+    models: &[Candidate],
+    against: impl Fn(usize, usize) -> f64,
+) -> Told {
+    let mut all = Told { chances: Vec::new(), certainty: 1.0, worth: 0.0 };
+    for members in places {
+        let odds: Vec<f64> = members
+            .iter()
+            .map(|m| (0.5 * (models[0].criterion() - models[m.likeliest].criterion())).min(MOST_ODDS).exp())
+            .collect();
+        let whole: f64 = odds.iter().sum();
+        // By truth and other: the evidence against the likeliest law of the other.
+        let evidence = |truth: &Member, other: &Member| {
+            other.models.iter().map(|m| against(truth.likeliest, *m)).fold(f64::INFINITY, f64::min)
         };
-        let told = |effect: &'static str| {
-            let own = least(0, &mut self.of(effect));
-            let truth = self.likeliest(effect, models)?;
-            let ruled_out = truths.iter().find(|(t, _)| *t == truth).map(|(_, others)| others.clone())?;
-            let other = least(truth, &mut ruled_out.into_iter());
-            let odds = (0.5 * (models[0].criterion() - models[truth].criterion())).min(MOST_ODDS).exp();
-            let chance = (chance(own) + odds * chance(other)) / (1.0 + odds);
-            Some(Told { effect, chance, evidence: own.min(other) })
-        };
-        self.effects().into_iter().filter_map(told).collect()
+        let mut certainty = 0.0;
+        for (truth, odds) in members.iter().zip(&odds) {
+            let others = members.iter().filter(|other| other.likeliest != truth.likeliest);
+            let against: Vec<f64> = others.map(|other| evidence(truth, other)).collect();
+            certainty += odds / whole * against.iter().map(|e| chance(*e)).fold(1.0, f64::min);
+            all.worth += odds / whole * against.iter().map(|e| chance(*e) + surer(*e)).sum::<f64>();
+        }
+        all.certainty *= certainty;
+        for (member, odds) in members.iter().zip(&odds).skip(1) {
+            let Some(effect) = member.effect else { continue };
+            let (own, other) = (evidence(&members[0], member), evidence(member, &members[0]));
+            let found = (chance(own) + odds * chance(other)) / (1.0 + odds);
+            match all.chances.iter_mut().find(|(known, _)| *known == effect) {
+                Some((_, least)) => *least = least.min(found),
+                None => all.chances.push((effect, found)),
+            }
+        }
     }
+    all
+}
+
+/// Where chances are even, more evidence is better.
+fn surer(evidence: f64) -> f64 {
+    SURER * (evidence / PLENTY).clamp(0.0, 1.0)
 }
 
 /// That so much evidence is enough: it varies with the noise like a normal variable of four times its size as variance.

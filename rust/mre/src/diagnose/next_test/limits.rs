@@ -16,6 +16,8 @@ const LONGER: [f64; 4] = [1.0, 2.0, 4.0, 8.0];
 const MOST: f64 = 30_000.0;
 /// How many times as fast, at the stroke that was tested.
 const FASTER: [f64; 3] = [1.0, 2.0, 4.0];
+/// How many times the frequency, seen by as many more samples a second as it needs.
+const HIGHER: [f64; 3] = [1.0, 2.0, 4.0];
 
 /// What the machine and the device may do.
 #[derive(Debug, Clone, PartialEq)]
@@ -65,20 +67,30 @@ impl Limits {
         }
     }
 
-    /// The same, and what is harder to make, the easiest first: longer, then faster, where that is not limited.
+    /// The same, and what is harder to make, the easiest first: longer, then faster, then of higher frequency, where that
+    /// is not limited.
     pub(super) fn wider(&self, given: &GivenLimits) -> Vec<Self> {
         let of = |free: bool, all: &'static [f64]| if free { all } else { &all[..1] };
         let longer = of(given.duration.is_none(), &LONGER);
-        let faster = of(given.speed.is_none(), &FASTER);
         // No motion within stroke and frequency is faster.
         let fastest = TAU * self.highest * self.stroke;
+        let all = of(given.speed.is_none(), &FASTER);
+        let useful = |i: usize| i == 0 || all[i - 1] * self.speed < fastest;
+        let faster: Vec<f64> = (0..all.len()).filter(|i| useful(*i)).map(|i| all[i]).collect();
+        let most = faster.last().copied().unwrap_or(1.0);
+        let higher = of(given.highest.is_none(), &HIGHER)[1..].iter().map(|higher| (most, *higher));
         let mut found = Vec::new();
-        for (i, by) in faster.iter().enumerate() {
-            let slower = if i > 0 { faster[i - 1] * self.speed } else { 0.0 };
+        for (faster, higher) in faster.iter().map(|faster| (*faster, 1.0)).chain(higher) {
             for times in longer {
-                let wider = Self { duration: times * self.duration, speed: by * self.speed, ..self.clone() };
-                let short = *times == 1.0 || wider.duration * self.rate <= MOST;
-                if short && slower < fastest {
+                let highest = higher * self.highest;
+                let wider = Self {
+                    speed: faster * self.speed,
+                    highest,
+                    duration: times * self.duration,
+                    rate: self.rate.max((highest / HIGHEST_SHARE).min(higher * self.rate)),
+                    ..self.clone()
+                };
+                if *times == 1.0 || wider.duration * wider.rate <= MOST {
                     found.push(wider);
                 }
             }
@@ -95,18 +107,22 @@ mod tests {
     fn what_is_not_limited_grows_the_duration_first() {
         let tested =
             Limits { stroke: 5.0, speed: 50.0, highest: 10.0, duration: 12.0, rate: 200.0, current: None };
-        let sizes = |given: &GivenLimits| -> Vec<(f64, f64)> {
-            tested.wider(given).iter().map(|l| (l.duration, l.speed)).collect()
+        let sizes = |given: &GivenLimits| -> Vec<(f64, f64, f64)> {
+            tested.wider(given).iter().map(|l| (l.duration, l.speed, l.highest)).collect()
         };
         let all = sizes(&GivenLimits::default());
-        assert_eq!(all[..5], [(12.0, 50.0), (24.0, 50.0), (48.0, 50.0), (96.0, 50.0), (12.0, 100.0)]);
-        assert_eq!(all.len(), 12);
-        let slow = GivenLimits { speed: Some(50.0), ..GivenLimits::default() };
+        assert_eq!(all[..3], [(12.0, 50.0, 10.0), (24.0, 50.0, 10.0), (48.0, 50.0, 10.0)]);
+        assert_eq!(all[3..6], [(96.0, 50.0, 10.0), (12.0, 100.0, 10.0), (24.0, 100.0, 10.0)]);
+        // Then of higher frequency, as long as the samples are not too many.
+        assert_eq!(all[11..13], [(96.0, 200.0, 10.0), (12.0, 200.0, 20.0)]);
+        assert_eq!(all[14..], [(48.0, 200.0, 20.0), (12.0, 200.0, 40.0), (24.0, 200.0, 40.0)]);
+        let slow = GivenLimits { speed: Some(50.0), highest: Some(10.0), ..GivenLimits::default() };
         assert_eq!(sizes(&slow).len(), 4);
         let short = GivenLimits { duration: Some(12.0), ..slow };
-        assert_eq!(sizes(&short), [(12.0, 50.0)]);
+        assert_eq!(sizes(&short), [(12.0, 50.0, 10.0)]);
         // 1 Hz at 5 mm needs no more than 31 mm/s, and 10 kHz for 24 s is too much.
         let slow = Limits { highest: 1.0, rate: 10_000.0, ..tested.clone() };
-        assert_eq!(slow.wider(&GivenLimits::default()).len(), 1);
+        let given = GivenLimits { highest: Some(1.0), ..GivenLimits::default() };
+        assert_eq!(slow.wider(&given).len(), 1);
     }
 }

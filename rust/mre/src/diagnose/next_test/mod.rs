@@ -22,20 +22,16 @@ use super::settings::Settings;
 use crate::assembly::Base;
 use bench::{Bench, Imagined};
 use doubt::Told;
-use hidden::shown;
+use hidden::Hidden;
 
 pub(super) use doubt::{Doubt, Rival};
 pub use excitation::{KINDS, Kind, Signal};
 pub use limits::{GivenLimits, Limits};
 
-/// A test that is harder to make has to tell so much more, in chances.
+/// A test that is harder to make has to rule out so many more effects.
 const WORTH: f64 = 0.1;
-/// Chance of telling an effect in doubt that is enough.
+/// Chance that nothing is in doubt any more that is enough.
 const ENOUGH: f64 = 0.95;
-/// Difference in the criterion beyond which more is no better.
-const PLENTY: f64 = 100.0;
-/// What that is worth beside a chance: it decides where chances are even.
-const SURER: f64 = 0.05;
 /// Excitations that are looked at closely.
 const CLOSELY: usize = 2;
 
@@ -52,12 +48,14 @@ pub struct Prospect {
     pub duration: f64,
     /// Chance that each effect in doubt is told apart or detected.
     pub chances: Vec<(&'static str, f64)>,
+    /// Chance that nothing is in doubt after it, whatever is true of what is; `None`: nothing was.
+    pub certainty: Option<f64>,
 }
 
 impl Prospect {
     fn new(kind: Kind, signal: &Signal, limits: &Limits, chances: Vec<(&'static str, f64)>) -> Self {
         let Signal { frequency, amplitude, .. } = *signal;
-        Self { kind, frequency, amplitude, duration: limits.duration, chances }
+        Self { kind, frequency, amplitude, duration: limits.duration, chances, certainty: None }
     }
 
     fn worth(&self) -> f64 {
@@ -84,33 +82,23 @@ pub(super) fn propose<'a>(
     monitor: &dyn Monitor,
 ) -> Option<NextTest> {
     let limits = Limits::of(&settings.limits, named.assembly.campaign());
-    let shown = |signal: &Signal| shown(named, base, &doubt.hidden, rows, settings, signal, monitor);
-    if doubt.rivals.is_empty() {
-        return to_show(&limits, &doubt.hidden, shown, monitor);
+    let hidden = Hidden::new(&doubt.hidden, named, settings);
+    if doubt.rivals.is_empty() && hidden.ids.is_empty() {
+        return None;
     }
     let bench = Bench::new(named, base, doubt, rows, monitor);
-    let mut found = to_tell(&bench, &limits.wider(&settings.limits))?;
-    // What it shows besides.
-    let first = &mut found.prospects[0];
-    if let Some(besides) = first.kind.signal(&found.limits).and_then(|signal| shown(&signal)) {
-        first.chances.extend(besides);
+    if doubt.rivals.is_empty() {
+        to_show(&bench, &limits, &hidden)
+    } else {
+        to_tell(&bench, &limits.wider(&settings.limits), &hidden)
     }
-    Some(found)
 }
 
 /// The excitation that shows most of what is hidden; of those that show as much, the plainest.
-fn to_show(
-    limits: &Limits,
-    hidden: &[&'static str],
-    shown: impl Fn(&Signal) -> Option<Vec<(&'static str, f64)>>,
-    monitor: &dyn Monitor,
-) -> Option<NextTest> {
-    if hidden.is_empty() {
-        return None;
-    }
+fn to_show(bench: &Bench, limits: &Limits, hidden: &Hidden) -> Option<NextTest> {
     let prospect = |kind: &Kind| {
-        let signal = monitor.whole(kind.signal(limits)?)?;
-        Some(Prospect::new(*kind, &signal, limits, shown(&signal)?))
+        let test = bench.imagine(*kind, limits)?;
+        Some(Prospect::new(*kind, test.signal(), limits, hidden.shown(bench, &test)?))
     };
     let mut prospects: Vec<Prospect> = KINDS.iter().filter_map(prospect).collect();
     prospects.sort_by(|a, b| b.worth().total_cmp(&a.worth()));
@@ -121,22 +109,11 @@ fn to_show(
 struct Telling {
     kind: Kind,
     test: Imagined,
-    told: Vec<Told>,
+    told: Told,
 }
 
-impl Telling {
-    fn worth(&self) -> f64 {
-        let of = |t: &Told| t.chance + SURER * (t.evidence / PLENTY).clamp(0.0, 1.0);
-        self.told.iter().map(of).sum()
-    }
-
-    fn enough(&self) -> bool {
-        self.told.iter().all(|t| t.chance >= ENOUGH)
-    }
-}
-
-/// The easiest test that tells enough, or the one that tells most.
-fn to_tell(bench: &Bench, wider: &[Limits]) -> Option<NextTest> {
+/// The easiest test that tells enough, or the one that tells most; with what it shows besides of what is hidden.
+fn to_tell(bench: &Bench, wider: &[Limits], hidden: &Hidden) -> Option<NextTest> {
     let mut best: Option<(&Limits, Vec<Telling>)> = None;
     for limits in wider {
         let glance = |kind: &Kind| {
@@ -144,21 +121,32 @@ fn to_tell(bench: &Bench, wider: &[Limits]) -> Option<NextTest> {
             Some(Telling { kind: *kind, told: bench.glance(&test)?, test })
         };
         let mut all: Vec<Telling> = KINDS.par_iter().filter_map(glance).collect();
-        all.sort_by(|a, b| b.worth().total_cmp(&a.worth()));
-        let least = best.as_ref().map_or(f64::NEG_INFINITY, |(_, known)| known[0].worth() + WORTH);
-        for telling in all.iter_mut().take(CLOSELY).filter(|t| t.worth() > least) {
+        best_first(&mut all);
+        let least = best.as_ref().map_or(f64::NEG_INFINITY, |(_, known)| known[0].told.worth + WORTH);
+        let mut closely: Vec<Telling> = Vec::new();
+        for mut telling in all.drain(..CLOSELY.min(all.len())).filter(|t| t.told.worth > least) {
             telling.told = bench.look(&telling.test)?;
+            closely.push(telling);
         }
-        all.sort_by(|a, b| b.worth().total_cmp(&a.worth()));
-        if all.first().is_some_and(|first| first.worth() > least) {
-            best = Some((limits, all));
+        best_first(&mut closely);
+        if closely.first().is_some_and(|first| first.told.worth > least) {
+            closely.extend(all);
+            best = Some((limits, closely));
         }
-        if best.as_ref().is_some_and(|(_, known)| known[0].enough()) {
+        if best.as_ref().is_some_and(|(_, known)| known[0].told.certainty >= ENOUGH) {
             break;
         }
     }
     let (limits, all) = best?;
-    let chances = |t: &Telling| t.told.iter().map(|t| (t.effect, t.chance)).collect();
-    let prospect = |t: &Telling| Prospect::new(t.kind, t.test.signal(), limits, chances(t));
-    Some(NextTest { limits: limits.clone(), prospects: all.iter().map(prospect).collect() })
+    let prospect = |t: &Telling| {
+        let prospect = Prospect::new(t.kind, t.test.signal(), limits, t.told.chances.clone());
+        Prospect { certainty: Some(t.told.certainty), ..prospect }
+    };
+    let mut prospects: Vec<Prospect> = all.iter().map(prospect).collect();
+    prospects[0].chances.extend(hidden.shown(bench, &all[0].test).unwrap_or_default());
+    Some(NextTest { limits: limits.clone(), prospects })
+}
+
+fn best_first(all: &mut [Telling]) {
+    all.sort_by(|a, b| b.told.worth.total_cmp(&a.told.worth));
 }

@@ -5,15 +5,14 @@ use nalgebra::{DMatrix, DVector};
 
 use super::world::{World, moved, widened};
 use crate::diagnose::candidates::Candidate;
-use crate::diagnose::least_squares::Data;
+use crate::diagnose::least_squares::{Data, Fitted};
+use crate::diagnose::moves::Moves;
 use crate::diagnose::noise::Noise;
 use crate::diagnose::normal::Normal;
 use crate::diagnose::point::Point;
 use crate::diagnose::step::{Ridge, step};
 use crate::kernel::filter::dot;
 
-/// Step of the difference quotients, in the unit box.
-const STEP: f64 = 1e-4;
 const RIDGE: Ridge = Ridge { coefficients: 1e-12, shapes: 1e-9 };
 
 /// How firmly the recordings hold the parameters of a model.
@@ -43,43 +42,25 @@ pub(super) struct View {
 impl View {
     /// `noise` is that of the recordings and of the test.
     pub(super) fn new(world: &World, model: &Candidate, held: &Held, noise: &Noise) -> Self {
-        let (assembly, unit, place) = (world.assembly(model), &model.fitted.unit, world.last());
-        let coefficients = widened(model);
-        let here = assembly.physical(unit);
-        let at_last: Vec<usize> = (0..unit.len()).filter(|j| assembly.bears(*j, place)).collect();
-        let moves: Vec<(usize, f64, Vec<f64>)> = at_last
-            .into_iter()
-            .map(|j| {
-                let mut unit = unit.clone();
-                let step = if unit[j] + STEP > 1.0 { -STEP } else { STEP };
-                unit[j] += step;
-                let mut shapes = here.clone();
-                shapes[j] = assembly.physical(&unit)[j];
-                (j, step, shapes)
-            })
-            .collect();
-        let jobs: Vec<(usize, &[f64])> = std::iter::once(&here)
-            .chain(moves.iter().map(|(.., shapes)| shapes))
-            .map(|shapes| (place, shapes.as_slice()))
-            .collect();
+        let (assembly, place) = (world.assembly(model), world.last());
+        let fitted = Fitted { coefficients: widened(model), ..model.fitted.clone() };
+        let moves = Moves::of(&assembly, &fitted);
+        let bearing: Vec<usize> = moves.bearing(&assembly, place).collect();
+        let here = assembly.physical(&fitted.unit);
+        let shapes = std::iter::once(here.as_slice()).chain(bearing.iter().map(|j| moves.shapes(*j)));
+        let jobs: Vec<(usize, &[f64])> = shapes.map(|shapes| (place, shapes)).collect();
         let mut made = assembly.columns_of(&jobs).into_iter();
         let own = made.next().unwrap_or_default();
-        let force = own.measured(&coefficients);
-        let white = |series: &[f64]| noise.whiten(place, series);
-        let mut columns: Vec<(usize, Vec<f64>)> =
-            own.places.iter().zip(&own.columns).map(|(place, column)| (*place, white(column))).collect();
-        for ((j, step, _), moved) in moves.iter().zip(made) {
-            let mut change = moved.measured(&coefficients);
-            for (value, before) in change.iter_mut().zip(&force) {
-                *value = (*value - before) / step;
-                if !value.is_finite() {
-                    *value = 0.0;
-                }
-            }
-            columns.push((coefficients.len() + j, white(&change)));
-        }
+        let force = own.measured(&fitted.coefficients);
+        let slopes = bearing.iter().zip(made).map(|(j, columns)| {
+            let (place, change) = moves.slope(*j, &columns, &fitted.coefficients, &force);
+            (place, noise.whiten(world.last(), &change))
+        });
+        let linear = own.places.iter().zip(&own.columns);
+        let linear = linear.map(|(i, column)| (*i, noise.whiten(place, column)));
+        let columns: Vec<(usize, Vec<f64>)> = linear.chain(slopes).collect();
         let gram = gram(model, held, &columns, &assembly.known_of_coefficients());
-        Self { force, columns, gram, unit: unit.clone(), place }
+        Self { columns, gram, unit: fitted.unit, place, force }
     }
 
     /// Whitened sum of squares that the model adds where the test shows a force in N.
