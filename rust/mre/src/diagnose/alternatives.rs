@@ -15,15 +15,32 @@ use super::search::{Named, REFITTED, Search};
 /// included) cannot be told apart: the odds against it are below 150 to 1.
 pub(super) const APART: f64 = 10.0;
 
+/// Effects that are listed beside the one named at most, where its law is not exact.
+const MOST: usize = 2;
+
+/// What may stand in the place of an effect that was named.
+pub(super) struct Alternatives<'a> {
+    /// Ids of effects that cannot be told from it.
+    pub(super) effects: Vec<&'static str>,
+    /// Models of those that fit as well within the noise.
+    pub(super) rivals: Vec<Rival<'a>>,
+    /// Other laws of the effect named.
+    pub(super) laws: Vec<Rival<'a>>,
+}
+
 /// Models with another law in the place of an effect that was named: those of other effects, of which one law at least
 /// fits as well within the noise, and other laws of the same. A law that only its number of parameters rules out now may
 /// be the one that a further test leaves.
+///
+/// `left` is what the model named leaves beyond chance, in squared standard deviations: where no law is exact, one that
+/// leaves less than twice as much may be nearer to the truth all the same.
 pub(super) fn rivals<'a>(
     search: &Search<'_, 'a>,
     named: &Named<'a>,
     place: usize,
+    left: f64,
     data: Data,
-) -> (Vec<Rival<'a>>, Vec<Rival<'a>>) {
+) -> Alternatives<'a> {
     let without = search.drop(named, place);
     let known = named.assembly.effects()[place].about();
     let unit = &without.fitted.unit;
@@ -35,8 +52,18 @@ pub(super) fn rivals<'a>(
     };
     let best = candidates(&without.assembly, data, unit, &scored, REFITTED);
     let mut found: Vec<Rival> = best.into_iter().filter_map(other).collect();
-    let close: Vec<&'static str> =
-        found.iter().filter(|r| r.model.criterion() <= own + APART).map(|r| r.effect).collect();
+    let within = |far: f64| {
+        let near = found.iter().filter(move |r| r.model.criterion() <= own + far && r.effect != known.effect);
+        near.map(|r| r.effect)
+    };
+    let close: Vec<&'static str> = within(APART).collect();
+    let mut effects: Vec<&'static str> = Vec::new();
+    // As well as the noise tells, and of those nearly as good the best.
+    for (effect, most) in within(APART).map(|e| (e, usize::MAX)).chain(within(left).map(|e| (e, MOST))) {
+        if !effects.contains(&effect) && effects.len() < most {
+            effects.push(effect);
+        }
+    }
     found.retain(|rival| rival.effect == known.effect || close.contains(&rival.effect));
     // The other laws of the same effects: one of them may be what no test tells from the effect named.
     let law = |rival: &Rival| rival.model.assembly.effects().last().map(|e| e.about().law);
@@ -59,5 +86,6 @@ pub(super) fn rivals<'a>(
             .collect();
         found.extend(others.into_iter().filter_map(other));
     }
-    found.into_iter().partition(|rival| rival.effect != known.effect)
+    let (rivals, laws) = found.into_iter().partition(|rival| rival.effect != known.effect);
+    Alternatives { effects, rivals, laws }
 }

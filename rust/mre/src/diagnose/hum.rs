@@ -12,8 +12,10 @@ const HARMONICS: usize = 3;
 const WANDER: f64 = 0.2;
 /// Below this determinant, of ones on the diagonal, sine and cosine are one.
 const DEPENDENT: f64 = 1e-9;
-/// Steps on either side of the nominal frequency.
-const STEPS: i32 = 4;
+/// Frequencies that are tried for each that a recording resolves: between them the strongest is on a parabola.
+const FINE: f64 = 8.0;
+/// Samples whose hum turns together, s.
+const TOGETHER: f64 = 0.5;
 
 /// A residual without its sines at the mains' frequencies and their harmonics, as far as they are sampled.
 pub(super) fn without_hum(residual: &[f64], step: f64) -> Vec<f64> {
@@ -22,11 +24,8 @@ pub(super) fn without_hum(residual: &[f64], step: f64) -> Vec<f64> {
         if !told(nominal, step) {
             continue;
         }
-        let strongest = (-STEPS..=STEPS)
-            .map(|k| nominal + WANDER * f64::from(k) / f64::from(STEPS))
-            .map(|f| (f, Wave::of(&left, f, step)))
-            .max_by(|a, b| a.1.explained.total_cmp(&b.1.explained));
-        let Some((frequency, wave)) = strongest else { continue };
+        let frequency = strongest(&left, nominal, step);
+        let wave = Wave::of(&left, frequency, step);
         wave.take_off(&mut left, frequency, step);
         for k in (2..=HARMONICS).map(|k| k as f64 * frequency) {
             if sampled(k, step) {
@@ -37,12 +36,42 @@ pub(super) fn without_hum(residual: &[f64], step: f64) -> Vec<f64> {
     left
 }
 
+/// The strongest frequency near a nominal one. A recording of a minute resolves a sixtieth of a hertz: what is left of a
+/// hum that is taken off beside its frequency would pass for noise.
+fn strongest(series: &[f64], nominal: f64, step: f64) -> f64 {
+    let together = ((TOGETHER / step) as usize).max(1);
+    let mut sums = vec![(0.0, 0.0); series.len().div_ceil(together)];
+    turn(series.len(), nominal, step, |i, cos, sin| {
+        let (re, im) = &mut sums[i / together];
+        *re += series[i] * cos;
+        *im -= series[i] * sin;
+    });
+    let power = |offset: f64| {
+        let (mut re, mut im) = (0.0, 0.0);
+        turn(sums.len(), offset, step * together as f64, |i, cos, sin| {
+            re += sums[i].0 * cos + sums[i].1 * sin;
+            im += sums[i].1 * cos - sums[i].0 * sin;
+        });
+        re * re + im * im
+    };
+    let count = (WANDER * FINE * step * series.len() as f64).ceil().max(1.0) as i32;
+    let apart = WANDER / f64::from(count);
+    let powers: Vec<f64> = (-count..=count).map(|k| power(apart * f64::from(k))).collect();
+    let best = (0..powers.len()).max_by(|a, b| powers[*a].total_cmp(&powers[*b])).unwrap_or(0);
+    let top = if best == 0 || best + 1 == powers.len() {
+        0.0
+    } else {
+        let (before, here, after) = (powers[best - 1], powers[best], powers[best + 1]);
+        let bend = before - 2.0 * here + after;
+        if bend < 0.0 { 0.5 * (before - after) / bend } else { 0.0 }
+    };
+    nominal + apart * (best as f64 + top - f64::from(count))
+}
+
 /// Amplitudes of the cosine and the sine at a frequency, by least squares.
 struct Wave {
     cos: f64,
     sin: f64,
-    /// Squares of the series that they explain.
-    explained: f64,
 }
 
 impl Wave {
@@ -63,7 +92,7 @@ impl Wave {
         } else {
             (right[0] / gram[0], 0.0)
         };
-        Self { cos, sin, explained: cos * right[0] + sin * right[1] }
+        Self { cos, sin }
     }
 
     fn take_off(&self, series: &mut [f64], frequency: f64, step: f64) {
@@ -98,6 +127,18 @@ mod tests {
             let left = without_hum(&sum, step);
             let error = left.iter().zip(&rest).map(|(a, b)| (a - b).powi(2)).sum::<f64>() / 4000.0;
             assert!(error < 1e-3, "{error} of {frequency} Hz at {rate} Hz");
+        }
+    }
+
+    #[test]
+    fn a_hum_of_any_frequency_goes_from_a_long_recording() {
+        let step = 1.0 / 200.0;
+        for frequency in [49.871, 50.02, 50.0233, 60.077] {
+            let hum: Vec<f64> =
+                (0..20_000).map(|i| 3.0 * (TAU * frequency * f64::from(i) * step + 1.0).sin()).collect();
+            let left = without_hum(&hum, step);
+            let error = left.iter().map(|e| e * e).sum::<f64>() / 20_000.0;
+            assert!(error < 1e-3, "{error} of {frequency} Hz");
         }
     }
 }

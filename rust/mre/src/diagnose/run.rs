@@ -1,7 +1,7 @@
 //! The whole diagnosis.
 
 use super::absorbed::absorbed;
-use super::alternatives::rivals;
+use super::alternatives::{Alternatives, rivals};
 use super::begin::{Begun, Given, begin};
 use super::candidates::by_effect;
 use super::diagnosis::{Diagnosis, Effect, HeldOut, Judgement};
@@ -78,7 +78,8 @@ pub fn run<'a>(
     });
     let hidden = absorbed.iter().map(|a| a.effect).collect();
     let mut doubt = Doubt { rivals: Vec::new(), laws: Vec::new(), hidden };
-    let effects = effects(&search, &named, judged, proofs.as_ref().map(|p| &p.1), &mut doubt);
+    let after = proofs.as_ref().map(|p| &p.1);
+    let effects = effects(&search, &named, judged, after, evidence.left, &mut doubt);
     let next_test =
         monitor.stage(Stage::NextTest, || propose(&named, base, &doubt, &rows, settings, monitor));
     Some(Diagnosis {
@@ -112,6 +113,7 @@ fn effects<'a>(
     named: &Named<'a>,
     splits: &[Split],
     after: Option<&Proof>,
+    left: f64,
     doubt: &mut Doubt<'a>,
 ) -> Vec<Effect> {
     let monitor = search.monitor;
@@ -121,15 +123,11 @@ fn effects<'a>(
         let told = monitor.stage(Stage::Alternatives, || {
             let without = search.drop(named, effect.place);
             let before = prove(&without.assembly, &named.noise, splits, &without.fitted, monitor);
-            (before.held_out_rms, rivals(search, named, effect.place, search.data(&named.noise)))
+            (before.held_out_rms, rivals(search, named, effect.place, left, search.data(&named.noise)))
         });
-        let Some((before, (rivals, laws))) = told else { break };
+        let Some((before, Alternatives { effects, rivals, laws })) = told else { break };
         effect.held_out = Some(HeldOut { before, after: after.held_out_rms });
-        for rival in &rivals {
-            if !effect.rivals.contains(&rival.effect) {
-                effect.rivals.push(rival.effect);
-            }
-        }
+        effect.rivals = effects;
         doubt.rivals.extend(rivals);
         doubt.laws.extend(laws);
     }

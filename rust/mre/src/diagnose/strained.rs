@@ -8,6 +8,9 @@ use super::search::Named;
 use crate::assembly::Assembly;
 use crate::parameter::Parameter;
 
+/// A moment whose interval is a larger share of its range is none.
+const ADRIFT: f64 = 0.5;
+
 /// True where one of the effects at these places does.
 pub(super) fn any_strained(named: &Named, data: Data, mut places: Range<usize>) -> bool {
     if places.is_empty() {
@@ -29,9 +32,16 @@ pub fn strained<'e>(assembly: &Assembly, estimates: &'e Estimates, place: usize)
     let nothing = |e: &Estimate, none: f64| effect.own() == Some(e.name.as_str()) && e.low <= none;
     let absent = estimates.coefficients[coefficients].iter().filter(|e| nothing(e, 0.0));
     let boxes = &assembly.shapes()[shapes.clone()];
-    let ends = estimates.shapes[shapes].iter().zip(boxes);
+    let ends = estimates.shapes[shapes.clone()].iter().zip(boxes);
     // The interval of one at its end is open on both sides: as much of it as there can be is not nothing.
     let shapeless =
         |(e, p): &(&Estimate, &Parameter)| e.pressed || (e.value < p.upper && nothing(e, p.lower));
-    absent.chain(ends.filter(shapeless).map(|(e, _)| e)).map(|e| e.name.as_str()).collect()
+    // A change at any moment is no change at one.
+    let values: Vec<f64> = estimates.shapes[shapes.clone()].iter().map(|e| e.value).collect();
+    let moment = effect.moment(&values).map(|(from, _)| from);
+    let adrift = |(e, p): &(&Estimate, &Parameter)| {
+        moment == Some(e.value) && e.high - e.low > ADRIFT * (p.upper - p.lower)
+    };
+    let spoken = ends.filter(|end| shapeless(end) || adrift(end)).map(|(e, _)| e);
+    absent.chain(spoken).map(|e| e.name.as_str()).collect()
 }

@@ -61,6 +61,8 @@ pub struct Evidence {
     pub false_alarm: f64,
     /// Share of the rest in all that can be explained, in squared standard deviations.
     pub share: f64,
+    /// What is left beyond chance, in squared standard deviations.
+    pub left: f64,
     /// Rms in N of the force that the best further candidate would add.
     pub lack_of_fit: f64,
     /// Rms in N of the noise.
@@ -129,6 +131,7 @@ impl Evidence {
             p_rest,
             false_alarm,
             share,
+            left: if significant { left } else { 0.0 },
             lack_of_fit: if significant { change } else { 0.0 },
             noise,
             plain,
