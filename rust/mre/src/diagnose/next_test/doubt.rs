@@ -60,13 +60,13 @@ impl<'a> Doubt<'a> {
     }
 
     /// What may stand in each place in doubt, the effect named first.
-    pub(super) fn places(&self, models: &[Candidate]) -> Vec<Vec<Member>> {
+    pub(super) fn places(&self, criteria: &[f64]) -> Vec<Vec<Member>> {
         let mut places: Vec<usize> = self.rivals.iter().map(|rival| rival.place).collect();
         places.dedup();
-        places.into_iter().map(|place| self.members(place, models)).collect()
+        places.into_iter().map(|place| self.members(place, criteria)).collect()
     }
 
-    fn members(&self, place: usize, models: &[Candidate]) -> Vec<Member> {
+    fn members(&self, place: usize, criteria: &[f64]) -> Vec<Member> {
         let first = 1 + self.laws.len();
         let laws = self.laws.iter().enumerate().filter(|(_, law)| law.place == place).map(|(i, _)| 1 + i);
         let mut found =
@@ -82,29 +82,21 @@ impl<'a> Doubt<'a> {
             }
         }
         for member in &mut found[1..] {
-            let likeliest = member.models.iter().min_by(|a, b| criterion(models, **a, **b));
+            let likeliest = member.models.iter().min_by(|a, b| criteria[**a].total_cmp(&criteria[**b]));
             member.likeliest = *likeliest.unwrap_or(&member.likeliest);
         }
         found
     }
 }
 
-fn criterion(models: &[Candidate], a: usize, b: usize) -> std::cmp::Ordering {
-    models[a].criterion().total_cmp(&models[b].criterion())
-}
-
-/// What evidence tells of what may stand in each place, given the difference in the criterion by which a first model that
-/// is true rules out a second.
-pub(super) fn told(
-    places: &[Vec<Member>],
-    models: &[Candidate],
-    against: impl Fn(usize, usize) -> f64,
-) -> Told {
+/// What evidence tells of what may stand in each place, given the criteria of all models, and the difference in the
+/// criterion by which a first model that is true rules out a second.
+pub(super) fn told(places: &[Vec<Member>], criteria: &[f64], against: impl Fn(usize, usize) -> f64) -> Told {
     let mut all = Told { chances: Vec::new(), certainty: 1.0, worth: 0.0 };
     for members in places {
         let odds: Vec<f64> = members
             .iter()
-            .map(|m| (0.5 * (models[0].criterion() - models[m.likeliest].criterion())).min(MOST_ODDS).exp())
+            .map(|m| (0.5 * (criteria[0] - criteria[m.likeliest])).min(MOST_ODDS).exp())
             .collect();
         let whole: f64 = odds.iter().sum();
         // By truth and other: the evidence against the likeliest law of the other.
@@ -154,5 +146,17 @@ mod tests {
     fn evidence_is_enough_with_an_even_chance_at_the_threshold() {
         assert!((chance(APART) - 0.5).abs() < 1e-9);
         assert!(chance(0.0) < 1e-5 && chance(60.0) > 0.999);
+    }
+
+    #[test]
+    fn a_twin_of_a_rival_leaves_a_doubt_unless_the_one_named_is_true() {
+        let member = |effect, model| Member { effect, likeliest: model, models: vec![model] };
+        let members = vec![member(None, 0), member(Some("filter_lag"), 1), member(Some("rig_compliance"), 2)];
+        let twins = |truth: usize, other: usize| if truth > 0 && other > 0 { 0.0 } else { 1e3 };
+        let found = told(&[members], &[7.0; 3], twins);
+        assert!((found.certainty - 1.0 / 3.0).abs() < 1e-4, "{}", found.certainty);
+        assert!(found.chances.iter().all(|(_, chance)| *chance > 0.999));
+        // The one named is told from both, each of the others from it.
+        assert!((found.worth - 4.0 / 3.0 * (1.0 + SURER)).abs() < 1e-3, "{}", found.worth);
     }
 }
