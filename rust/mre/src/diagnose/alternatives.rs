@@ -56,11 +56,16 @@ pub(super) fn rivals<'a>(
         let near = found.iter().filter(move |r| r.model.criterion() <= own + far && r.effect != known.effect);
         near.map(|r| r.effect)
     };
-    let close: Vec<&'static str> = within(APART).collect();
-    let mut effects: Vec<&'static str> = Vec::new();
-    // As well as the noise tells, and of those nearly as good the best.
-    for (effect, most) in within(APART).map(|e| (e, usize::MAX)).chain(within(left).map(|e| (e, MOST))) {
-        if !effects.contains(&effect) && effects.len() < most {
+    let mut close: Vec<&'static str> = Vec::new();
+    for effect in within(APART) {
+        if !close.contains(&effect) {
+            close.push(effect);
+        }
+    }
+    // Of those that are nearly as good the best.
+    let mut effects = close.clone();
+    for effect in within(left) {
+        if effects.len() < MOST && !effects.contains(&effect) {
             effects.push(effect);
         }
     }

@@ -2,11 +2,9 @@
 
 use std::sync::Arc;
 
-use rayon::prelude::*;
-
 use super::candidates::{Candidate, noise_left};
-use super::joint::fit;
-use super::least_squares::{Data, Fitted, refine, refine_at_most};
+use super::joint::{best_of, fit};
+use super::least_squares::{Data, Fitted, refine};
 use super::monitor::Monitor;
 use super::noise::Noise;
 use super::normal::Rows;
@@ -58,13 +56,8 @@ pub(super) fn begin<'a>(
     let mut all = vec![0.0; known];
     all.extend(shapes);
     let given = assembly.unit(&all).split_off(known);
-    let first = starts(base)
-        .par_iter()
-        .map(|start| refine_at_most(&assembly, data, &[start.as_slice(), &given].concat(), FEW))
-        .collect::<Vec<_>>()
-        .into_iter()
-        .min_by(|a, b| a.left.total_cmp(&b.left))
-        .map_or_else(Vec::new, |fit| fit.unit);
+    let points = starts(base).iter().map(|start| [start.as_slice(), &given].concat()).collect();
+    let first = best_of(&assembly, data, points, &[(1, FEW)]).map_or_else(Vec::new, |fit| fit.unit);
     let coarse = refine(&assembly, data, &first);
     let noise = noise_left(&assembly, data, &coarse);
     let data = Data { noise: &noise, rows, monitor };

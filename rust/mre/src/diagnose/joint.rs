@@ -68,7 +68,8 @@ pub(super) fn unbent<'a>(candidate: Candidate<'a>, data: Data) -> Candidate<'a> 
 }
 
 /// The best of fits from several points of the unit box, not yet at its end: those that fall behind are given up early.
-fn best_of(
+/// Of each stage so many are kept after so many steps.
+pub(super) fn best_of(
     assembly: &Assembly,
     data: Data,
     mut running: Vec<Vec<f64>>,

@@ -20,11 +20,11 @@ fn noisy(assembly: &Assembly, data: Data, r: usize) -> impl Iterator<Item = Vec<
         _ => None,
     };
     let all = assembly.campaign().doubts()[r].noisy.iter().flatten();
-    let under = move |series: &Vec<f64>| {
-        let product = |current: &Vec<f64>| series.iter().zip(current).map(|(s, i)| s * i).collect();
-        std::iter::once(series.clone()).chain(current.map(product))
-    };
-    all.flat_map(under).map(move |series| whitened(data.noise, r, &data.rows[r], &series))
+    let white = move |series: &[f64]| whitened(data.noise, r, &data.rows[r], series);
+    all.flat_map(move |series| {
+        let product = |current: &Vec<f64>| series.iter().zip(current).map(|(s, i)| s * i).collect::<Vec<_>>();
+        std::iter::once(white(series)).chain(current.map(|current| white(&product(current))))
+    })
 }
 
 /// Orthogonal complement of the tangents of a fitted model, by recording.

@@ -15,6 +15,7 @@ use std::f64::consts::{SQRT_2, TAU};
 use nalgebra::Complex;
 
 use super::{About, Effect, Motion, Scene, Sizes, order_within};
+use crate::kernel::relaxation::Step;
 use crate::kernel::spline::second_differences;
 use crate::parameter::Parameter;
 
@@ -29,39 +30,31 @@ pub(super) enum FilterLag {
     Butterworth,
 }
 
-/// `Re(weight z)` of `z' = pole z + u`, at rest at the first value: exact for the natural cubic spline through
-/// evenly spaced values. A line between them would be coarser than a filter faster than their spacing.
-fn filtered(step: f64, input: &[f64], pole: Complex<f64>, weight: Complex<f64>) -> Vec<f64> {
+/// `Re(share y)` of `y' = rate (u - y)`, at rest at the first value: exact for the natural cubic spline through evenly
+/// spaced values. A line between them would be coarser than a filter faster than their spacing.
+fn filtered(step: f64, input: &[f64], rate: Complex<f64>, share: Complex<f64>) -> Vec<f64> {
     let bend = second_differences(input);
-    let decay = (pole * step).exp();
-    // Integrals over a step of the kernel against the powers of the share of the step.
-    let mut power = [(decay - 1.0) / pole; 4];
-    for k in 1..4 {
-        power[k] = (power[k - 1] * (k as f64 / step) - 1.0) / pole;
-    }
-    let [whole, late, square, cube] = power;
-    let early = whole - late;
-    let curved = [(square * 3.0 - late * 2.0 - cube) / 6.0, (cube - late) / 6.0];
-    let mut z = -Complex::from(input[0]) / pole;
+    let Step { decay, early, late, bent } = Step::over(rate * step);
+    let mut y = Complex::from(input[0]);
     let mut out = Vec::with_capacity(input.len());
-    out.push((weight * z).re);
+    out.push((share * y).re);
     for i in 1..input.len() {
-        let entering = early * input[i - 1] + late * input[i] + curved[0] * bend[i - 1] + curved[1] * bend[i];
-        z = z * decay + entering;
-        out.push((weight * z).re);
+        let entering = early * input[i - 1] + late * input[i] + bent[0] * bend[i - 1] + bent[1] * bend[i];
+        y = y * decay + entering;
+        out.push((share * y).re);
     }
     out
 }
 
 /// First-order lag of time constant `tau`.
 fn first_order(step: f64, input: &[f64], tau: f64) -> Vec<f64> {
-    filtered(step, input, Complex::from(-1.0 / tau), Complex::from(1.0 / tau))
+    filtered(step, input, Complex::from(1.0 / tau), Complex::from(1.0))
 }
 
 /// Second-order Butterworth filter, by one of its two poles.
 fn butterworth(step: f64, input: &[f64], corner: f64) -> Vec<f64> {
-    let w = TAU * corner;
-    filtered(step, input, Complex::new(-w, w) / SQRT_2, Complex::new(0.0, -SQRT_2 * w))
+    let rate = Complex::new(1.0, -1.0) * (TAU * corner / SQRT_2);
+    filtered(step, input, rate, Complex::new(0.0, -SQRT_2 * TAU * corner) / rate)
 }
 
 impl Effect for FilterLag {

@@ -15,8 +15,8 @@ use crate::parameter::Parameter;
 
 /// Nominal frequencies, Hz.
 const NOMINAL: [f64; 2] = [50.0, 60.0];
-/// The mains stay within this of their nominal frequency, Hz.
-const WANDER: f64 = 0.1;
+/// A fit starts within this of a nominal frequency, Hz.
+const AROUND: f64 = 0.1;
 /// A hum is told from motion above this share of the sampling rate, aliased or not, or where a period has so many
 /// samples.
 const FAST: f64 = 0.25;
@@ -94,7 +94,7 @@ impl Effect for Mains {
     fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
         // As far apart as the longest recording resolves.
         let apart = (0.6 / sizes.duration).clamp(0.01, 0.05);
-        let beside = if self.harmonics == 1 { (WANDER / apart).round() as i32 } else { 0 };
+        let beside = if self.harmonics == 1 { (AROUND / apart).round() as i32 } else { 0 };
         self.seen(sizes)
             .into_iter()
             .flat_map(|f| (-beside..=beside).map(move |k| vec![f + f64::from(k) * apart]))

@@ -6,10 +6,7 @@
 
 use nalgebra::{Complex, ComplexField};
 
-use crate::kernel::relaxation::runs;
-
-/// Terms of the series for a short step.
-const TERMS: usize = 16;
+use crate::kernel::relaxation::{runs, weights};
 
 /// `y' = (u - y) / tau` from `start`.
 pub(super) fn smooth_lag(time: &[f64], input: &[f64], tau: f64, start: f64) -> Vec<f64> {
@@ -48,27 +45,6 @@ fn relaxed<N: ComplexField<RealField = f64> + Copy>(
         }
     }
     out
-}
-
-/// Weights of the powers 0 to 3 of the share of a step, over a step of so many time constants `q`: the integral of
-/// `q exp(-q (1 - s)) s^k`.
-fn weights<N: ComplexField<RealField = f64> + Copy>(q: N) -> [N; 4] {
-    if q.modulus() > 1.0 {
-        let mut weights = [-(-q).exp_m1(); 4];
-        for k in 1..4 {
-            weights[k] = N::one() - weights[k - 1].scale(k as f64) / q;
-        }
-        return weights;
-    }
-    std::array::from_fn(|k| {
-        let mut term = q.unscale((k + 1) as f64);
-        let mut sum = term;
-        for j in 1..TERMS {
-            term *= -q.unscale((k + 1 + j) as f64);
-            sum += term;
-        }
-        sum
-    })
 }
 
 /// Slopes at the samples: harmonic means of those on both sides, zero where these differ in sign.
@@ -130,13 +106,5 @@ mod tests {
         let lagged = smooth_lag(&time, &input, 0.004, 1.0);
         assert!(lagged[..10].iter().all(|y| (y - 1.0).abs() < 1e-15));
         assert!(lagged[10..].windows(2).all(|pair| pair[1] >= pair[0] && pair[1] <= 3.0));
-    }
-
-    #[test]
-    fn both_ways_to_the_weights_agree() {
-        let (short, long) = (weights(1.0_f64), weights(1.0_f64 + 1e-12));
-        for (a, b) in short.iter().zip(long) {
-            assert!((a - b).abs() < 1e-11);
-        }
     }
 }

@@ -1,5 +1,7 @@
 //! First-order lags side by side, summed: the relaxation of many Maxwell branches in one pass.
 
+use nalgebra::ComplexField;
+
 use super::dispatch::{self, for_every_isa};
 use super::elementary::fma;
 use super::spline::second_differences;
@@ -31,7 +33,7 @@ pub(crate) fn lag(time: &[f64], input: &[f64], tau: f64, start: f64) -> Vec<f64>
     let mut out = Vec::with_capacity(input.len());
     out.push(y);
     for (from, to) in runs(time) {
-        let Step { decay, early, late, bent } = Step::new(time[from] - time[from - 1], tau);
+        let Step { decay, early, late, bent } = Step::over((time[from] - time[from - 1]) / tau);
         for i in from..to {
             let curved = bent[0] * bend[i - 1] + bent[1] * bend[i];
             y = decay * y + (early * input[i - 1] + late * input[i] + curved + NOTHING);
@@ -65,41 +67,44 @@ pub(crate) fn runs(time: &[f64]) -> impl Iterator<Item = (usize, usize)> {
     })
 }
 
-/// Weights over a step of the state, of the input before and now, and of its second differences before and now.
-struct Step {
-    decay: f64,
-    early: f64,
-    late: f64,
-    bent: [f64; 2],
+/// Weights of the powers 0 to 3 of the share of a step, over a step of so many time constants `q`: the integral of
+/// `q exp(-q (1 - s)) s^k`.
+pub(crate) fn weights<N: ComplexField<RealField = f64> + Copy>(q: N) -> [N; 4] {
+    if q.modulus() > 1.0 {
+        let mut weights = [-(-q).exp_m1(); 4];
+        for k in 1..4 {
+            weights[k] = N::one() - weights[k - 1].scale(k as f64) / q;
+        }
+        return weights;
+    }
+    std::array::from_fn(|k| {
+        let mut term = q.unscale((k + 1) as f64);
+        let mut sum = term;
+        for j in 1..TERMS {
+            term *= -q.unscale((k + 1 + j) as f64);
+            sum += term;
+        }
+        sum
+    })
 }
 
-impl Step {
-    fn new(h: f64, tau: f64) -> Self {
-        let q = h / tau;
-        let whole = -(-q).exp_m1();
-        let late = 1.0 - whole / q;
-        Self { decay: 1.0 - whole, early: whole - late, late, bent: bent(q, late) }
-    }
+/// Weights over a step of the state, of the input before and now, and of its second differences before and now: exact for
+/// a cubic spline.
+pub(crate) struct Step<N> {
+    pub(crate) decay: N,
+    pub(crate) early: N,
+    pub(crate) late: N,
+    pub(crate) bent: [N; 2],
 }
 
-/// Integrals over a step of so many time constants, of `q exp(-q u)` times `(u^3 - u)/6` and `((1 - u)^3 - (1 - u))/6`,
-/// where `u` runs back from its end.
-fn bent(q: f64, late: f64) -> [f64; 2] {
-    if q > 1.0 {
-        // Against the powers of the share of the step.
-        let square = 1.0 - 2.0 * late / q;
-        let cube = 1.0 - 3.0 * square / q;
-        return [(3.0 * square - 2.0 * late - cube) / 6.0, (cube - late) / 6.0];
+impl<N: ComplexField<RealField = f64> + Copy> Step<N> {
+    /// Of `y' = rate (u - y)`, over so many time constants.
+    pub(crate) fn over(q: N) -> Self {
+        let [whole, late, square, cube] = weights(q);
+        let before = square.scale(3.0) - late.scale(2.0) - cube;
+        let bent = [before, cube - late].map(|weight| weight.unscale(6.0));
+        Self { decay: (-q).exp(), early: whole - late, late, bent }
     }
-    let mut found = [0.0; 2];
-    let mut power = q / 6.0;
-    for k in 0..TERMS {
-        let n = k as f64;
-        found[0] += power * (1.0 / (n + 4.0) - 1.0 / (n + 2.0));
-        found[1] += power * (3.0 / (n + 3.0) - 2.0 / (n + 2.0) - 1.0 / (n + 4.0));
-        power *= -q / (n + 1.0);
-    }
-    found
 }
 
 for_every_isa!(
@@ -125,7 +130,7 @@ fn add_generic<const FUSED: bool>(
         let (mut decay, mut early, mut late) = ([0.0; WIDE], [0.0; WIDE], [0.0; WIDE]);
         let mut bent = [[0.0; WIDE]; 2];
         for (l, (tau, _)) in of.iter().enumerate() {
-            let step = Step::new(time[from] - time[from - 1], *tau);
+            let step = Step::over((time[from] - time[from - 1]) / tau);
             (decay[l], early[l], late[l]) = (step.decay, step.early, step.late);
             (bent[0][l], bent[1][l]) = (step.bent[0], step.bent[1]);
         }
@@ -188,6 +193,14 @@ mod tests {
                 let exact = steady + share * w * tau * (-t / tau).exp();
                 assert!((y - exact).abs() < 1e-4, "{tau} {t}: {y} for {exact}");
             }
+        }
+    }
+
+    #[test]
+    fn both_ways_to_the_weights_agree() {
+        let (short, long) = (weights(1.0_f64), weights(1.0_f64 + 1e-12));
+        for (a, b) in short.iter().zip(long) {
+            assert!((a - b).abs() < 1e-11);
         }
     }
 }

@@ -29,8 +29,6 @@ pub(super) struct Bench<'b, 'a> {
     /// Of the recordings and of the test.
     noise: Noise,
     models: Vec<Candidate<'a>>,
-    /// Of each on the recordings.
-    criteria: Vec<f64>,
     /// What may stand in each place in doubt.
     places: Vec<Vec<Member>>,
     /// Models that may be true, the one named first.
@@ -57,12 +55,11 @@ impl<'b, 'a> Bench<'b, 'a> {
         let models = doubt.models(named);
         let data = Data { noise: &named.noise, rows, monitor };
         let held = models.par_iter().map(|model| Held::of(model, data)).collect();
-        let criteria: Vec<f64> = models.iter().map(Candidate::criterion).collect();
-        let places = doubt.places(&criteria);
+        let places = doubt.places(&criteria(&models));
         let rivals = places.iter().flatten().map(|member| member.likeliest).filter(|model| *model > 0);
         let truths = std::iter::once(0).chain(rivals).collect();
         let noise = named.noise.with_another_like(0);
-        Self { base, rows, monitor, noise, models, criteria, places, truths, held }
+        Self { base, rows, monitor, noise, models, places, truths, held }
     }
 
     /// A test; `None` where the limits leave no room for it, or a model cannot follow it.
@@ -127,7 +124,7 @@ impl<'b, 'a> Bench<'b, 'a> {
         let jobs: Vec<(usize, usize)> = self.truths.iter().enumerate().flat_map(of).collect();
         let found: Vec<f64> = jobs.par_iter().map(|(t, model)| criterion(*t, *model)).collect();
         let known = |job: (usize, usize)| jobs.iter().position(|j| *j == job).map(|place| found[place]);
-        told(&self.places, &self.criteria, |truth, other| {
+        told(&self.places, &criteria(&self.models), |truth, other| {
             let t = self.truths.iter().position(|known| *known == truth).unwrap_or(0);
             let difference = known((t, other)).zip(known((t, truth))).map_or(0.0, |(o, own)| o - own);
             // Where neither can follow the test, it tells nothing.
@@ -164,6 +161,11 @@ impl<'b, 'a> Bench<'b, 'a> {
     fn known_samples(&self) -> usize {
         self.models[0].fitted.rows.max(1)
     }
+}
+
+/// Criteria of models on the recordings.
+fn criteria(models: &[Candidate]) -> Vec<f64> {
+    models.iter().map(Candidate::criterion).collect()
 }
 
 impl Imagined {
