@@ -18,7 +18,8 @@ use crate::scalars::{Number, Text};
 /// Parameters
 /// ----------
 /// time : array, shape (n,)
-///     s, strictly increasing, not necessarily uniform; n of at least 8.
+///     s, strictly increasing, not necessarily uniform; n of at least 8. Times that only rounding takes off an
+///     even grid are put back on it.
 /// displacement : array, shape (n,)
 ///     mm.
 /// force : array, shape (n,), or None

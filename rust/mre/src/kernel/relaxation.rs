@@ -12,6 +12,8 @@ const WIDE: usize = 8;
 const TERMS: usize = 16;
 /// Steps that differ by less than this share of themselves count as equal.
 const SAME_STEP: f64 = 1e-9;
+/// Or by so many of the last binary digit of the time.
+const ROUNDED: f64 = 4.0;
 /// Keeps a state that fades away from denormal numbers, which are slow; of no size beside any input.
 const NOTHING: f64 = 1e-250;
 
@@ -61,7 +63,10 @@ pub(crate) fn runs(time: &[f64]) -> impl Iterator<Item = (usize, usize)> {
     std::iter::from_fn(move || {
         let from = next;
         let first = time.get(from)? - time[from - 1];
-        let alike = |i: &usize| ((time[*i] - time[*i - 1]) - first).abs() <= SAME_STEP * first;
+        let alike = |i: &usize| {
+            let kept = ROUNDED * f64::EPSILON * time[*i].abs();
+            ((time[*i] - time[*i - 1]) - first).abs() <= SAME_STEP * first + kept
+        };
         next = (from + 1..time.len()).find(|i| !alike(i)).unwrap_or(time.len());
         Some((from, next))
     })

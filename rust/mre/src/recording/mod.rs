@@ -5,16 +5,15 @@
 pub(crate) mod check;
 mod condition;
 mod cut;
+mod grid;
 
 use std::ops::Range;
 
 pub use condition::Condition;
+pub(crate) use grid::even_step;
 
 use crate::error::{Error, Result};
 use crate::velocity;
-
-/// Share of a step by which a time is off an even grid.
-const OFF_THE_GRID: f64 = 0.75;
 
 /// Fewest samples from which a velocity and five parameters can be told.
 pub const MIN_SAMPLES: usize = 8;
@@ -29,7 +28,8 @@ pub const SMALLEST: f64 = 1e-30;
 /// What a recording is made from.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series {
-    /// Time in s, strictly increasing; need not be uniform.
+    /// Time in s, strictly increasing; need not be uniform. Times that only rounding takes off an even grid are put
+    /// back on it.
     pub time: Vec<f64>,
     /// Displacement in mm.
     pub displacement: Vec<f64>,
@@ -57,7 +57,8 @@ pub struct Recording {
 }
 
 impl Recording {
-    /// Check the series and derive the velocity where it is missing.
+    /// Check the series, put times that a file rounded back on their even grid, and derive the velocity where it is
+    /// missing.
     ///
     /// # Errors
     /// Different lengths, fewer than [`MIN_SAMPLES`], a value that is not finite or beyond [`LARGEST`], time
@@ -65,6 +66,7 @@ impl Recording {
     pub fn new(mut series: Series) -> Result<Self> {
         let name = series.name.clone();
         check::series(&series).map_err(|error| error.in_recording(&name))?;
+        series.time = grid::unrounded(series.time);
         let (velocity, velocity_window) = if let Some(measured) = series.velocity.take() {
             (measured, None)
         } else {
@@ -215,16 +217,6 @@ impl Recording {
         }
         seen
     }
-}
-
-/// Step in s of the even grid that times are on, as rounded ones are: within three quarters of a step.
-///
-/// # Errors
-/// The first sample that is off the grid.
-pub(crate) fn even_step(time: &[f64]) -> std::result::Result<f64, usize> {
-    let step = (time[time.len() - 1] - time[0]) / (time.len() - 1) as f64;
-    let off = |i: usize| (time[i] - time[0] - step * i as f64).abs() > OFF_THE_GRID * step;
-    (0..time.len()).find(|i| off(*i)).map_or(Ok(step), Err)
 }
 
 /// Arithmetic mean.
