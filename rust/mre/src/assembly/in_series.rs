@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::columns::Columns;
-use crate::effect::slope;
+use crate::effect::{Flexibility, slope};
 use crate::kernel::relaxation::lag;
 use crate::recording::Recording;
 
@@ -15,43 +15,60 @@ const INSTANT: f64 = 0.01;
 /// How a difference from a known force is passed on: to put what a device gives in the motion that the known force
 /// leaves it in the place of that force diverges where the device is stiffer than what it stands on.
 ///
-/// As a spring and a dashpot near to the device pass it: `(1 + f k) e + f c e' = difference`. It is one step of Newton's
-/// method: where the known force is that of the device, the model and its slopes are those of both together.
+/// As a spring and a dashpot near to the device pass it behind what gives way with the retardation time t:
+/// `(1 + f k) e + (t + f c) e' = difference + t difference'`. It is one step of Newton's method: where the known force is
+/// that of the device, the model and its slopes are those of both together.
 pub(super) struct InSeries<'a> {
     time: &'a [f64],
     whole: f64,
     tau: f64,
+    /// What of the difference passes at once.
+    direct: f64,
 }
 
 impl<'a> InSeries<'a> {
-    /// Beside a known force in N, with a flexibility in mm/N; `given` is what the device gives in the motion that it
+    /// Beside a known force in N; `given` is what the device gives in the motion that it
     /// leaves it, nearly.
-    pub(super) fn new(recording: &'a Recording, known: &[f64], given: &[f64], flexibility: f64) -> Self {
+    pub(super) fn new(
+        recording: &'a Recording,
+        known: &[f64],
+        given: &[f64],
+        flexibility: Flexibility,
+    ) -> Self {
         let time = recording.time();
         let less = |series: &[f64], by: &[f64]| -> Vec<f64> {
-            series.iter().zip(by).map(|(s, b)| s - flexibility * b).collect()
+            series.iter().zip(by).map(|(s, b)| s - flexibility.size * b).collect()
         };
-        let own = less(recording.displacement(), known);
-        let speed = less(recording.velocity(), &slope(time, known));
+        let slow = flexibility.retardation > INSTANT * (time[1] - time[0]);
+        let bent = slow.then(|| lag(time, known, flexibility.retardation, known[0]));
+        let bent = bent.as_deref().unwrap_or(known);
+        let own = less(recording.displacement(), bent);
+        let speed = less(recording.velocity(), &slope(time, bent));
         Self::of(time, spring_and_dashpot(&own, &speed, given), flexibility)
     }
 
     /// A first guess of the force in N, from that of the device alone in the recorded motion: a soft rig leaves it so
     /// little of that motion that nothing else is near enough.
-    pub(super) fn first(recording: &'a Recording, alone: &[f64], flexibility: f64) -> Vec<f64> {
+    pub(super) fn first(recording: &'a Recording, alone: &[f64], flexibility: Flexibility) -> Vec<f64> {
         let near = spring_and_dashpot(recording.displacement(), recording.velocity(), alone);
         Self::of(recording.time(), near, flexibility).passed(alone)
     }
 
-    fn of(time: &'a [f64], (stiffness, damping): (f64, f64), flexibility: f64) -> Self {
-        let whole = 1.0 + flexibility * STIFFER * stiffness;
-        Self { time, whole, tau: flexibility * damping / whole }
+    fn of(time: &'a [f64], (stiffness, damping): (f64, f64), flexibility: Flexibility) -> Self {
+        let Flexibility { size, retardation } = flexibility;
+        let whole = 1.0 + size * STIFFER * stiffness;
+        let tau = (retardation + size * damping) / whole;
+        Self { time, whole, tau, direct: if retardation > 0.0 { retardation / tau } else { 0.0 } }
     }
 
     fn passed(&self, difference: &[f64]) -> Vec<f64> {
         let difference: Vec<f64> = difference.iter().map(|d| d / self.whole).collect();
         let slow = self.tau > INSTANT * (self.time[1] - self.time[0]);
-        if slow { lag(self.time, &difference, self.tau, difference[0]) } else { difference }
+        if !slow {
+            return difference;
+        }
+        let late = lag(self.time, &difference, self.tau, difference[0]);
+        difference.iter().zip(late).map(|(now, late)| self.direct * (now - late) + late).collect()
     }
 
     /// A better guess of the force in N than a known one, from what the device gives in the motion that it leaves it.
@@ -108,7 +125,7 @@ mod tests {
             name: String::new(),
         })
         .expect("a recording");
-        let first = InSeries::first(&recording, &alone, 1.0 / k_r);
+        let first = InSeries::first(&recording, &alone, Flexibility::at_once(1.0 / k_r));
         let (re, im) = (k * (k + k_r) + c * c * w * w, c * w * k_r);
         let share = k_r / ((k + k_r).powi(2) + (c * w).powi(2));
         let exact = |t: f64| share * (re * (w * t).sin() + im * (w * t).cos());

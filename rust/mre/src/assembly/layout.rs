@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::base::{Base, Group};
 use super::campaign::Campaign;
 use super::columns::Known;
-use crate::effect::{Effect, Scene};
+use crate::effect::{Effect, Flexibility, Scene};
 use crate::parameter::{Parameter, Scale};
 use crate::recording::Recording;
 
@@ -94,10 +94,10 @@ impl<'a> Assembly<'a> {
         self.force_of_the_device(r, &self.physical(unit), &own)
     }
 
-    /// What the effects take from the motion for each newton of the device, mm/N; `None`: nothing follows from it.
-    pub fn flexibility(&self, shapes: &[f64]) -> Option<f64> {
+    /// What the force of the device takes from its motion; `None`: nothing follows from it.
+    pub fn flexibility(&self, shapes: &[f64]) -> Option<Flexibility> {
         let own = self.effects.iter().zip(self.shape_of(shapes));
-        own.filter_map(|(effect, shape)| effect.flexibility(shape)).reduce(|a, b| a + b)
+        own.filter_map(|(effect, shape)| effect.flexibility(shape)).reduce(Flexibility::and)
     }
 
     /// True where an effect cuts the measured force off.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::campaign::Campaign;
 use super::in_series::InSeries;
 use crate::device::Device;
-use crate::effect::{Effect, Factors, Scene, Sizes};
+use crate::effect::{Effect, Factors, Flexibility, Scene, Sizes};
 use crate::error::{Error, Result};
 use crate::kernel::filter::dot;
 use crate::physics::Part;
@@ -81,7 +81,8 @@ pub fn simulate(
         return Ok(alone);
     }
     let campaign = Campaign::with_sizes(vec![recording.clone()], sizes.clone());
-    let flexibility = additions.iter().filter_map(|a| a.effect.flexibility(&a.shape)).reduce(|a, b| a + b);
+    let flexibility =
+        additions.iter().filter_map(|a| a.effect.flexibility(&a.shape)).reduce(Flexibility::and);
     let pass = |known: &[f64]| pass(source, additions, recording, &campaign.scene(0, &alone, known));
     let mut force = pass(&alone)?;
     if let Some(flexibility) = flexibility {
@@ -152,7 +153,7 @@ fn pass(source: Source, additions: &[Addition], recording: &Recording, scene: &S
 }
 
 /// Difference of two forces as a share of the second, rms.
-fn distance(a: &[f64], b: &[f64]) -> f64 {
+pub(super) fn distance(a: &[f64], b: &[f64]) -> f64 {
     let apart: f64 = a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum();
     (apart / dot(b, b).max(f64::MIN_POSITIVE)).sqrt()
 }

@@ -10,10 +10,12 @@ use crate::effect::Effect;
 
 /// Fits from several starts that are kept after so many steps; the best of the last is fitted to the end.
 const STAGES: [(usize, usize); 3] = [(4, 1), (2, 2), (1, 3)];
-/// The same of a law of rigs.
-const OF_A_RIG: [(usize, usize); 2] = [(2, 0), (1, 3)];
-/// Repetitions of a fit whose effect follows from the force.
-const PASSES: usize = 4;
+/// The same from starts of an effect.
+const OF_AN_EFFECT: [(usize, usize); 2] = [(3, 2), (1, 6)];
+/// Most repetitions of a fit whose effect follows from the force.
+const PASSES: usize = 8;
+/// They end where what is left changes by no more, in squared standard deviations.
+const SETTLED: f64 = 0.01;
 
 /// Joint fit of a model with one more law, from the law's strongest start.
 pub(super) fn joint<'a>(
@@ -29,15 +31,19 @@ pub(super) fn joint<'a>(
     let known = assembly.physical(unit);
     let at = |start: &[f64]| wider.unit(&[known.as_slice(), start].concat());
     let unit = at(start);
-    if effect.flexibility(start).is_none_or(|flexibility| flexibility == 0.0) {
+    if effect.flexibility(start).is_none_or(|flexibility| flexibility.size == 0.0) {
         return fit(wider, data, &unit);
     }
     // The tangents of the model tell little of a rig: behind a soft one the device is another.
-    let others = effect.starts(assembly.campaign().sizes());
-    let all: Vec<Vec<f64>> =
-        std::iter::once(unit.clone()).chain(others.iter().map(|start| at(start))).collect();
-    let best = best_of(&wider, data, all, &OF_A_RIG).map_or(unit, |best| best.unit);
+    let all: Vec<Vec<f64>> = std::iter::once(unit.clone()).chain(of_the_last(&wider, &known)).collect();
+    let best = best_of(&wider, data, all, &OF_AN_EFFECT).map_or(unit, |best| best.unit);
     fit(wider, data, &best)
+}
+
+/// Starts of the last effect, beside these physical shapes of what stands before it, in the unit box.
+fn of_the_last(assembly: &Assembly, before: &[f64]) -> Vec<Vec<f64>> {
+    let starts = assembly.effects().last().map(|effect| effect.starts(assembly.campaign().sizes()));
+    starts.unwrap_or_default().iter().map(|start| assembly.unit(&[before, start].concat())).collect()
 }
 
 /// Fit from a point of the unit box; repeated where an effect follows from the force that is fitted.
@@ -46,7 +52,11 @@ pub(super) fn fit<'a>(mut assembly: Assembly<'a>, data: Data, unit: &[f64]) -> C
     if assembly.flexibility(&assembly.physical(&fitted.unit)).is_some() {
         for _ in 0..PASSES {
             assembly = assembly.seeing_its_force(&fitted.unit, &fitted.coefficients);
+            let before = fitted.left;
             fitted = refine(&assembly, data, &fitted.unit);
+            if (fitted.left - before).abs() <= SETTLED {
+                break;
+            }
         }
     }
     Candidate { assembly, fitted }
@@ -61,7 +71,25 @@ pub(super) fn unbent<'a>(candidate: Candidate<'a>, data: Data) -> Candidate<'a> 
         .filter(|start| !start.is_empty())
         .map(|start| start.into_iter().chain(candidate.fitted.unit[known..].iter().copied()).collect())
         .collect();
-    match best_of(&candidate.assembly, data, running, &STAGES) {
+    better(candidate, data, running, &STAGES)
+}
+
+/// The better of a fit and of fits from other shapes of its last effect.
+pub(super) fn begun_anew<'a>(candidate: Candidate<'a>, data: Data) -> Candidate<'a> {
+    let shapes = candidate.assembly.physical(&candidate.fitted.unit);
+    let sizes = candidate.assembly.campaign().sizes();
+    let own = candidate.assembly.effects().last().map_or(0, |effect| effect.shape(sizes).len());
+    let running = of_the_last(&candidate.assembly, &shapes[..shapes.len() - own]);
+    better(candidate, data, running, &OF_AN_EFFECT)
+}
+
+fn better<'a>(
+    candidate: Candidate<'a>,
+    data: Data,
+    running: Vec<Vec<f64>>,
+    stages: &[(usize, usize)],
+) -> Candidate<'a> {
+    match best_of(&candidate.assembly, data, running, stages) {
         Some(best) if best.left < candidate.fitted.left => fit(candidate.assembly, data, &best.unit),
         _ => candidate,
     }

@@ -10,7 +10,7 @@
 //! Communications, 1991, 179).
 //! Known limit: at one amplitude it is close to a softening spring.
 
-use super::{About, Effect, Scene, Sizes, ideal_above, order_within, within};
+use super::{About, Effect, Flexibility, Scene, Sizes, ideal_above, order_within, within};
 use crate::parameter::Parameter;
 
 /// A level on one side only is this many times as far on the other: beyond every measured force.
@@ -90,7 +90,7 @@ impl Effect for Clipping {
     }
 
     // Takes nothing from the motion, but follows from the force.
-    fn flexibility(&self, _: &[f64]) -> Option<f64> {
-        (*self == Self::Gradual).then_some(0.0)
+    fn flexibility(&self, _: &[f64]) -> Option<Flexibility> {
+        (*self == Self::Gradual).then(Flexibility::default)
     }
 }

@@ -22,6 +22,7 @@ mod factors;
 mod field_dependence;
 mod field_lag;
 mod filter_lag;
+mod flexibility;
 mod fractional;
 mod hysteresis;
 mod inertia;
@@ -52,6 +53,7 @@ mod work;
 pub use catalogue::{CATALOGUE, named};
 pub(crate) use drift::{DRIFT, MEAN};
 pub use factors::{Factors, Stored};
+pub use flexibility::Flexibility;
 pub use initial_state::{InitialState, starts_in_motion};
 pub(crate) use mains::{sampled, told};
 pub(crate) use operators::slope;
@@ -167,9 +169,9 @@ pub trait Effect: Send + Sync {
         None
     }
 
-    /// What the effect takes from the motion for each newton of the device with all its effects, mm/N. A fit is
-    /// then repeated until that force agrees with what the effect saw. Zero: it only follows from that force.
-    fn flexibility(&self, shape: &[f64]) -> Option<f64> {
+    /// What the force of the device with all its effects takes from the motion. A fit is then repeated until that force
+    /// agrees with what the effect saw.
+    fn flexibility(&self, shape: &[f64]) -> Option<Flexibility> {
         let _ = shape;
         None
     }

@@ -6,7 +6,7 @@
 //! of the whole device: an effect of some steps shifts it by as many teeth.
 //! Known limit: so do a hum and a drift, which are not seen here.
 
-use super::{About, Effect, Scene, Sizes, signed};
+use super::{About, Effect, Flexibility, Scene, Sizes, signed};
 use crate::parameter::Parameter;
 
 /// A lattice finer than this share of the force's range is none.
@@ -67,7 +67,7 @@ impl Effect for Quantisation {
     }
 
     // Takes nothing from the motion, but follows from the force.
-    fn flexibility(&self, _: &[f64]) -> Option<f64> {
-        Some(0.0)
+    fn flexibility(&self, _: &[f64]) -> Option<Flexibility> {
+        Some(Flexibility::default())
     }
 }

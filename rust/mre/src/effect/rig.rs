@@ -14,7 +14,9 @@
 use std::borrow::Cow;
 
 use super::operators::{each, lag, slope};
-use super::{About, Effect, Motion, Scene, Sizes, ideal_above, ideal_below, order_within, within};
+use super::{
+    About, Effect, Flexibility, Motion, Scene, Sizes, ideal_above, ideal_below, order_within, within,
+};
 use crate::parameter::Parameter;
 
 /// How the rig gives way.
@@ -84,13 +86,16 @@ impl Effect for Rig {
             Self::Joint => vec![vec![flexible, 0.03 * sizes.force], vec![soft, 0.3 * sizes.force]],
             Self::Viscoelastic => {
                 let slow = [0.003, 0.03, 0.2].map(|share| (share * sizes.duration).max(2.0 * sizes.step));
-                [sizes.step].into_iter().chain(slow).map(|t_r| vec![0.5 * soft, t_r]).collect()
+                let stiff = [sizes.step].into_iter().chain(slow).map(|t_r| vec![0.5 * soft, t_r]);
+                // Behind a soft one only the dashpot holds the device back.
+                stiff.chain(slow.map(|t_r| vec![2.0 * soft, t_r])).collect()
             }
         }
     }
 
-    fn flexibility(&self, shape: &[f64]) -> Option<f64> {
-        Some(shape[0])
+    fn flexibility(&self, shape: &[f64]) -> Option<Flexibility> {
+        let retardation = if *self == Self::Viscoelastic { shape[1] } else { 0.0 };
+        Some(Flexibility { size: shape[0], retardation })
     }
 
     fn motion(&self, scene: &Scene, shape: &[f64]) -> Option<Motion> {

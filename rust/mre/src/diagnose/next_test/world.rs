@@ -7,9 +7,6 @@ use crate::assembly::{Assembly, Base, Campaign, Doubts};
 use crate::diagnose::candidates::Candidate;
 use crate::recording::{Condition, Recording, Series};
 
-/// Passes until a simulation agrees with what effects see of it.
-const PASSES: usize = 4;
-
 /// A campaign with a recording of an imagined test at its end, and the base on it.
 pub(super) struct World {
     campaign: Campaign,
@@ -79,7 +76,7 @@ impl World {
     /// A model of the known recordings on these.
     pub(super) fn assembly<'w>(&'w self, of: &Candidate) -> Assembly<'w> {
         let coefficients = widened(of);
-        of.assembly.with_another((&self.campaign, &self.base), &of.fitted.unit, &coefficients, PASSES)
+        of.assembly.with_another((&self.campaign, &self.base), &of.fitted.unit, &coefficients)
     }
 
     /// Force in N of a model on the imagined test; `None` where it is not finite.
