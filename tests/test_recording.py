@@ -161,6 +161,14 @@ def test_times_that_were_rounded_are_even() -> None:
     assert recording.evenly_sampled
     # Of the median step it would be 250 Hz.
     assert recording.sampling_rate == pytest.approx(256.0, rel=1e-4)
+    # They are put back on their grid, whose step the rounded ends give nearly.
+    np.testing.assert_allclose(np.diff(recording.time), 1 / 256.0, rtol=1e-3)
+    np.testing.assert_allclose(recording.time, t, atol=1.1e-3)
+
+
+def test_times_that_truly_differ_are_left_alone() -> None:
+    t = jittered(1, 100.0, 10.0)
+    np.testing.assert_array_equal(Recording(t, np.sin(t), np.sin(t)).time, t)
 
 
 def test_a_gap_is_not_even() -> None:

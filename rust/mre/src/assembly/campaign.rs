@@ -5,6 +5,7 @@ use std::sync::{Arc, OnceLock};
 
 use rayon::prelude::*;
 
+use super::halves::with_halves;
 use super::motion::{Doubts, of_one_motion};
 use crate::effect::{Acceleration, Scene, Sizes};
 use crate::error::{Error, Result};
@@ -16,6 +17,7 @@ pub struct Campaign {
     recordings: Vec<Arc<Recording>>,
     accelerations: Vec<OnceLock<Vec<f64>>>,
     currents: Vec<Option<Vec<f64>>>,
+    halves: Vec<OnceLock<Option<Recording>>>,
     doubts: Vec<Doubts>,
     before: Vec<f64>,
     sizes: Sizes,
@@ -46,6 +48,7 @@ impl Campaign {
     /// The same for a simulation, with the sizes of the recordings that the effects were fitted to.
     pub(crate) fn with_sizes(recordings: Vec<Arc<Recording>>, sizes: Sizes) -> Self {
         let accelerations = vec![OnceLock::new(); recordings.len()];
+        let halves = vec![OnceLock::new(); recordings.len()];
         let currents = recordings.iter().map(|r| current(r)).collect();
         let mut total = 0.0;
         let before = recordings
@@ -57,7 +60,7 @@ impl Campaign {
             })
             .collect();
         let doubts = vec![Doubts::default(); recordings.len()];
-        Self { recordings, accelerations, currents, doubts, before, sizes }
+        Self { recordings, accelerations, currents, halves, doubts, before, sizes }
     }
 
     /// The same with doubts about the motions, by recording.
@@ -87,6 +90,13 @@ impl Campaign {
     /// The recordings.
     pub fn recordings(&self) -> &[Arc<Recording>] {
         &self.recordings
+    }
+
+    /// A recording with its motion halfway between the samples too; `None` where that is not known well enough.
+    pub(super) fn with_halves(&self, r: usize) -> Option<&Recording> {
+        let known = &self.halves[r];
+        let smooth = !self.doubts[r].cornered;
+        known.get_or_init(|| smooth.then(|| with_halves(&self.recordings[r])).flatten()).as_ref()
     }
 
     /// Sizes over all recordings.

@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use rayon::prelude::*;
 
 use super::base::{Base, Group};
+use super::halves::at_samples;
 use super::in_series::InSeries;
 use super::layout::Assembly;
 use crate::effect::{About, Effect, Factors, Motion, Scene};
@@ -87,6 +88,18 @@ pub(super) struct BaseColumns {
     columns: Vec<Vec<f64>>,
     places: Vec<usize>,
     parts: Vec<Part>,
+    /// The columns with values halfway between the samples, where an effect asks for them.
+    between: Vec<Vec<f64>>,
+}
+
+impl BaseColumns {
+    /// Columns of so many samples; of those that also have what lies between them that is kept apart.
+    fn thin(&mut self, samples: usize) {
+        if self.columns.iter().any(|column| column.len() > samples) {
+            self.between = std::mem::take(&mut self.columns);
+            self.columns = self.between.iter().map(|column| at_samples(column)).collect();
+        }
+    }
 }
 
 impl Assembly<'_> {
@@ -119,6 +132,7 @@ impl Assembly<'_> {
         let shape_of = self.shape_of(shapes);
         let scene = self.scene(r);
         let mut found = Columns { columns: base.columns, places: base.places, given: None, clip: None };
+        let mut between = base.between;
         for (effect, shape) in self.effects.iter().zip(&shape_of) {
             let known = self.known.as_ref().and_then(|known| known.added(*effect, shape));
             let factors = match known {
@@ -127,6 +141,7 @@ impl Assembly<'_> {
             };
             if let Some(factors) = factors {
                 scale(&factors, &base.parts, &mut found.columns);
+                between.clear();
             }
         }
         if !matches!(self.base, Base::Fitted(_)) {
@@ -139,7 +154,7 @@ impl Assembly<'_> {
             }
             found.given = Some(force);
         }
-        self.effect_columns(r, &scene, &shape_of, &mut found);
+        self.effect_columns(r, &scene, &shape_of, between, &mut found);
         if let Some(flexibility) = self.flexibility(shapes).filter(|f| f.size > 0.0) {
             let whole = &self.whole[r];
             let rig = InSeries::new(&self.campaign.recordings()[r], whole, whole, flexibility);
@@ -165,6 +180,7 @@ impl Assembly<'_> {
     pub(super) fn knows(&self, shapes: &[f64]) -> bool {
         self.known.as_ref().is_some_and(|known| {
             known.shapes == shapes[..self.base_shapes()]
+                && self.serves(&known.columns)
                 && self.effects.iter().zip(self.shape_of(shapes)).all(|(e, s)| known.added(*e, s).is_some())
         })
     }
@@ -173,6 +189,26 @@ impl Assembly<'_> {
     pub(super) fn sees_otherwise(&self, shapes: &[f64]) -> bool {
         let (motion, current) = self.seen(&self.scene(0), &self.shape_of(shapes));
         motion.is_some() || current.is_some()
+    }
+
+    /// A recording as a base sees it whose motion no effect alters.
+    pub(super) fn unaltered(&self, r: usize) -> &Recording {
+        let halves = if self.asks_between() { self.campaign.with_halves(r) } else { None };
+        halves.unwrap_or(&self.campaign.recordings()[r])
+    }
+
+    fn asks_between(&self) -> bool {
+        matches!(self.base, Base::Fitted(_))
+            && self.base.is_hysteretic()
+            && self.effects.iter().any(|effect| effect.between_samples())
+    }
+
+    /// True where columns of the base have what the effects ask for.
+    pub(super) fn serves(&self, columns: &[BaseColumns]) -> bool {
+        let has = |(r, columns): (usize, &BaseColumns)| {
+            !columns.between.is_empty() || self.campaign.with_halves(r).is_none()
+        };
+        !self.asks_between() || columns.iter().enumerate().all(has)
     }
 
     /// The shapes of each effect.
@@ -197,12 +233,15 @@ impl Assembly<'_> {
             let scene = self.scene(*r);
             let (motion, current) = self.seen(&scene, &self.shape_of(shapes));
             if motion.is_none() && current.is_none() {
-                let known = self.known.as_ref().filter(|known| known.shapes == base_shapes);
+                let known = self
+                    .known
+                    .as_ref()
+                    .filter(|known| known.shapes == base_shapes && self.serves(&known.columns));
                 if let Some(columns) = known.and_then(|known| known.columns.get(*r)) {
                     found.push(Some(columns.clone()));
                     continue;
                 }
-                seen.push(Cow::Borrowed(recording.as_ref()));
+                seen.push(Cow::Borrowed(self.unaltered(*r)));
             } else {
                 let motion = motion.unwrap_or_else(|| Motion {
                     displacement: scene.displacement.to_vec(),
@@ -223,7 +262,7 @@ impl Assembly<'_> {
     pub(super) fn base_columns(&self, jobs: &[(usize, &[f64], &Recording)]) -> Vec<BaseColumns> {
         let fixed = |parts: Vec<(Part, Vec<f64>)>| {
             let (parts, columns) = parts.into_iter().unzip();
-            BaseColumns { columns, places: Vec::new(), parts }
+            BaseColumns { columns, parts, ..BaseColumns::default() }
         };
         match self.base {
             Base::Held(kept) => jobs
@@ -234,7 +273,13 @@ impl Assembly<'_> {
             Base::Given(force) => {
                 jobs.iter().map(|(r, ..)| fixed(vec![(Part::Stiffness, force[*r].clone())])).collect()
             }
-            Base::Fitted(groups) => group_columns(groups, jobs),
+            Base::Fitted(groups) => {
+                let mut made = group_columns(groups, jobs);
+                for (made, (r, ..)) in made.iter_mut().zip(jobs) {
+                    made.thin(self.campaign.recordings()[*r].len());
+                }
+                made
+            }
         }
     }
 
@@ -280,7 +325,10 @@ fn group_columns(groups: &[Group], jobs: &[(usize, &[f64], &Recording)]) -> Vec<
         .into_iter()
         .zip(places)
         .zip(&values)
-        .map(|((columns, places), (law, _))| BaseColumns { columns, places, parts: law.parts(model) })
+        .map(|((columns, places), (law, _))| {
+            let parts = law.parts(model);
+            BaseColumns { columns, places, parts, between: Vec::new() }
+        })
         .collect()
 }
 

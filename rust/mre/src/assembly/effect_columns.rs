@@ -6,17 +6,31 @@ use crate::effect::{Effect, Scene};
 
 impl Assembly<'_> {
     /// What effects add to the force, and channels through which it goes.
-    pub(super) fn effect_columns(&self, r: usize, scene: &Scene, shape_of: &[&[f64]], found: &mut Columns) {
+    /// Columns of the base, which come first, may be known `between` the samples as well.
+    pub(super) fn effect_columns(
+        &self,
+        r: usize,
+        scene: &Scene,
+        shape_of: &[&[f64]],
+        mut between: Vec<Vec<f64>>,
+        found: &mut Columns,
+    ) {
         for (effect, shape, first) in self.placed(shape_of) {
             if !effect.of_the_measurement() {
                 found.add(first, self.own_columns(effect, shape, r, scene));
             }
         }
         for (effect, shape) in self.effects.iter().zip(shape_of) {
-            for column in found.columns.iter_mut().chain(&mut found.given) {
-                if let Some(measured) = effect.through(scene, shape, column) {
+            let mut passed = false;
+            for (i, column) in found.columns.iter_mut().chain(&mut found.given).enumerate() {
+                let fine = between.get(i).and_then(|halves| effect.through_halves(scene, shape, halves));
+                if let Some(measured) = fine.or_else(|| effect.through(scene, shape, column)) {
                     *column = measured;
+                    passed = true;
                 }
+            }
+            if passed {
+                between.clear();
             }
         }
     }

@@ -58,13 +58,13 @@ impl<'a> Assembly<'a> {
         }
         let own = &shapes[..self.base_shapes()];
         let columns = match &self.known {
-            Some(known) if known.shapes == own => known.columns.clone(),
+            Some(known) if known.shapes == own && self.serves(&known.columns) => known.columns.clone(),
             // The base sees another motion than the recorded one.
             _ if self.sees_otherwise(shapes) => Vec::new(),
             _ => {
-                let recordings = self.campaign.recordings().iter().enumerate();
+                let recordings = 0..self.campaign.recordings().len();
                 let jobs: Vec<(usize, &[f64], &Recording)> =
-                    recordings.map(|(r, recording)| (r, own, recording.as_ref())).collect();
+                    recordings.map(|r| (r, own, self.unaltered(r))).collect();
                 self.base_columns(&jobs)
             }
         };

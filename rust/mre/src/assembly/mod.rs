@@ -6,6 +6,7 @@ mod base;
 mod campaign;
 mod columns;
 mod effect_columns;
+mod halves;
 mod in_series;
 mod kept;
 mod layout;

@@ -5,7 +5,8 @@
 //! | T | time constant | s | 0.1 ms to 50 ms |
 //! | `f_c` | corner frequency of a Butterworth filter | Hz | 3 to 2000 |
 //!
-//! Exact for the cubic spline through evenly spaced samples.
+//! Exact for the cubic spline through evenly spaced samples; behind a hysteretic base model through values halfway between
+//! them too, since a spline swings where such a device turns.
 //! Reference: Butterworth, Wireless Engineer 7 (1930) 536.
 //! Known limit: with all frequencies far below the corner it is a time delay; recordings that a filter delays by so
 //! much that the device would give out energy in every cycle are refused.
@@ -113,5 +114,19 @@ impl Effect for FilterLag {
             Self::Displacement => None,
             Self::Butterworth => Some(butterworth(scene.step(), force, shape[0])),
         }
+    }
+
+    fn through_halves(&self, scene: &Scene, shape: &[f64], force: &[f64]) -> Option<Vec<f64>> {
+        let step = 0.5 * scene.step();
+        let fine = match self {
+            Self::Force => first_order(step, force, shape[0]),
+            Self::Displacement => return None,
+            Self::Butterworth => butterworth(step, force, shape[0]),
+        };
+        Some(fine.into_iter().step_by(2).collect())
+    }
+
+    fn between_samples(&self) -> bool {
+        *self != Self::Displacement
     }
 }

@@ -200,6 +200,17 @@ pub trait Effect: Send + Sync {
         None
     }
 
+    /// The same of a force that is also known halfway between the samples, where [`Effect::between_samples`] asks for it.
+    fn through_halves(&self, scene: &Scene, shape: &[f64], force: &[f64]) -> Option<Vec<f64>> {
+        let _ = (scene, shape, force);
+        None
+    }
+
+    /// True where it matters to a channel what a sharply turning force does between the samples.
+    fn between_samples(&self) -> bool {
+        false
+    }
+
     /// Share of the force of the device that is measured at every sample.
     fn shown(&self, scene: &Scene, shape: &[f64]) -> Option<Vec<f64>> {
         let _ = (scene, shape);

@@ -133,7 +133,7 @@ fn largest(intervals: &[Interval]) -> f64 {
 ///
 /// On the straight line between two samples, with 22 samples a cycle, the path would be 0.7 % short: more than
 /// the noise of a good recording.
-fn middles(time: &[f64], velocity: &[f64]) -> Vec<f64> {
+pub(crate) fn middles(time: &[f64], velocity: &[f64]) -> Vec<f64> {
     let slope = |i: usize| (velocity[i + 1] - velocity[i]) / (time[i + 1] - time[i]);
     // Half the second derivative at a sample that is not the first or last.
     let bend = |i: usize| (slope(i) - slope(i - 1)) / (time[i + 1] - time[i - 1]);
