@@ -3,6 +3,7 @@
 
 mod another;
 mod base;
+mod base_columns;
 mod campaign;
 mod columns;
 mod effect_columns;

@@ -10,11 +10,6 @@ pub struct Flexibility {
 }
 
 impl Flexibility {
-    /// Of what gives way at once, mm/N.
-    pub fn at_once(size: f64) -> Self {
-        Self { size, retardation: 0.0 }
-    }
-
     /// Nearly that of two in series.
     #[must_use]
     pub fn and(self, other: Self) -> Self {

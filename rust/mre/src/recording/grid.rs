@@ -44,7 +44,7 @@ fn mean_step(time: &[f64]) -> f64 {
     (time[time.len() - 1] - time[0]) / (time.len() - 1) as f64
 }
 
-/// The decimal that all times are multiples of, or what single precision keeps of the largest.
+/// The decimal that all times are multiples of, or what single precision takes from the largest where all are kept so.
 fn rounding(time: &[f64]) -> f64 {
     let multiple = |decimal: f64| {
         time.iter().all(|t| {
@@ -54,7 +54,9 @@ fn rounding(time: &[f64]) -> f64 {
     };
     let decimal = (0..=MOST_DECIMALS).map(|k| 10_f64.powi(k)).find(|decimal| multiple(*decimal));
     let largest = time[0].abs().max(time[time.len() - 1].abs());
-    decimal.map_or(0.0, |decimal| (1.0 + BINARY) / decimal).max(SINGLE * largest)
+    let single = time.iter().all(|t| f64::from(*t as f32) == *t);
+    let binary = if single { SINGLE * largest } else { 0.0 };
+    decimal.map_or(0.0, |decimal| (1.0 + BINARY) / decimal).max(binary)
 }
 
 #[cfg(test)]
@@ -84,6 +86,8 @@ mod tests {
         let shaken: Vec<f64> =
             (0..400).map(|i| f64::from(i) * 0.01 + 0.002 * (1.7 * f64::from(i)).sin()).collect();
         assert_eq!(unrounded(shaken.clone()), shaken);
+        let late: Vec<f64> = shaken.iter().map(|t| 1e6 + t).collect();
+        assert_eq!(unrounded(late.clone()), late);
         let two_rates: Vec<f64> =
             (0..300).map(|i| 0.01 * f64::from(if i < 100 { i } else { 2 * i - 100 })).collect();
         assert_eq!(unrounded(two_rates.clone()), two_rates);
