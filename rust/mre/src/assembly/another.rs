@@ -6,10 +6,8 @@ use super::base::Base;
 use super::campaign::Campaign;
 use super::in_series::InSeries;
 use super::layout::Assembly;
-use super::simulate::distance;
+use super::simulate::{PASSES, distance};
 
-/// Passes until a force agrees with what effects see of it.
-const PASSES: usize = 40;
 /// Share of a force, rms, by which two that agree differ.
 const AGREED: f64 = 1e-6;
 

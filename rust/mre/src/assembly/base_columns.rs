@@ -63,16 +63,14 @@ impl Assembly<'_> {
         let mut found: Vec<Option<BaseColumns>> = Vec::with_capacity(jobs.len());
         let mut seen: Vec<Cow<Recording>> = Vec::new();
         let mut wanted: Vec<(usize, &[f64])> = Vec::new();
+        let at_hand = self.known.as_ref().filter(|known| self.serves(&known.columns));
         for (r, shapes) in jobs {
             let base_shapes = &shapes[..self.base_shapes()];
             let recording = &self.campaign.recordings()[*r];
             let scene = self.scene(*r);
             let (motion, current) = self.seen(&scene, &self.shape_of(shapes));
             if motion.is_none() && current.is_none() {
-                let known = self
-                    .known
-                    .as_ref()
-                    .filter(|known| known.shapes == base_shapes && self.serves(&known.columns));
+                let known = at_hand.filter(|known| known.shapes == base_shapes);
                 if let Some(columns) = known.and_then(|known| known.columns.get(*r)) {
                     found.push(Some(columns.clone()));
                     continue;
@@ -101,9 +99,10 @@ impl Assembly<'_> {
     }
 
     fn asks_between(&self) -> bool {
-        matches!(self.base, Base::Fitted(_))
+        // The cheapest question first: this one is asked for every set of columns.
+        self.effects.iter().any(|effect| effect.between_samples())
+            && matches!(self.base, Base::Fitted(_))
             && self.base.is_hysteretic()
-            && self.effects.iter().any(|effect| effect.between_samples())
     }
 
     /// True where columns of the base have what the effects ask for.

@@ -12,7 +12,7 @@ use crate::physics::Part;
 use crate::recording::Recording;
 
 /// Passes until the force agrees with what effects saw of it.
-const PASSES: usize = 40;
+pub(super) const PASSES: usize = 40;
 /// Share of a force, rms, by which two that agree differ.
 const AGREED: f64 = 1e-9;
 /// The same for a force that is near enough after all passes: dry friction never quite settles where it turns.

@@ -29,8 +29,7 @@ pub(super) fn joint<'a>(
     effects.push(effect);
     let wider = assembly.with(effects);
     let known = assembly.physical(unit);
-    let at = |start: &[f64]| wider.unit(&[known.as_slice(), start].concat());
-    let unit = at(start);
+    let unit = wider.unit(&[known.as_slice(), start].concat());
     if effect.flexibility(start).is_none_or(|flexibility| flexibility.size == 0.0) {
         return fit(wider, data, &unit);
     }

@@ -58,6 +58,17 @@ fn butterworth(step: f64, input: &[f64], corner: f64) -> Vec<f64> {
     filtered(step, input, rate, Complex::new(0.0, -SQRT_2 * TAU * corner) / rate)
 }
 
+impl FilterLag {
+    /// A force at steps in s, where it is what is filtered.
+    fn measured(self, step: f64, shape: &[f64], force: &[f64]) -> Option<Vec<f64>> {
+        match self {
+            Self::Force => Some(first_order(step, force, shape[0])),
+            Self::Displacement => None,
+            Self::Butterworth => Some(butterworth(step, force, shape[0])),
+        }
+    }
+}
+
 impl Effect for FilterLag {
     fn about(&self) -> About {
         let force = About {
@@ -109,20 +120,11 @@ impl Effect for FilterLag {
     }
 
     fn through(&self, scene: &Scene, shape: &[f64], force: &[f64]) -> Option<Vec<f64>> {
-        match self {
-            Self::Force => Some(first_order(scene.step(), force, shape[0])),
-            Self::Displacement => None,
-            Self::Butterworth => Some(butterworth(scene.step(), force, shape[0])),
-        }
+        self.measured(scene.step(), shape, force)
     }
 
     fn through_halves(&self, scene: &Scene, shape: &[f64], force: &[f64]) -> Option<Vec<f64>> {
-        let step = 0.5 * scene.step();
-        let fine = match self {
-            Self::Force => first_order(step, force, shape[0]),
-            Self::Displacement => return None,
-            Self::Butterworth => butterworth(step, force, shape[0]),
-        };
+        let fine = self.measured(0.5 * scene.step(), shape, force)?;
         Some(fine.into_iter().step_by(2).collect())
     }
 

@@ -16,7 +16,7 @@ const SINGLE: f64 = f32::EPSILON as f64;
 /// # Errors
 /// The first sample that is off the grid.
 pub(crate) fn even_step(time: &[f64]) -> std::result::Result<f64, usize> {
-    let step = mean_step(time);
+    let step = (time[time.len() - 1] - time[0]) / (time.len() - 1) as f64;
     let off = |i: usize| (time[i] - time[0] - step * i as f64).abs() > OFF_THE_GRID * step;
     (0..time.len()).find(|i| off(*i)).map_or(Ok(step), Err)
 }
@@ -29,19 +29,11 @@ pub(super) fn unrounded(time: Vec<f64>) -> Vec<f64> {
     if runs(&time).count() < 2 {
         return time;
     }
-    let step = mean_step(&time);
+    let Ok(step) = even_step(&time) else { return time };
     let on_grid = |i: usize| time[0] + step * i as f64;
     let off = time.iter().enumerate().map(|(i, t)| (t - on_grid(i)).abs()).fold(0.0, f64::max);
     // The step is between two rounded times: each is off by half a decimal.
-    if off <= rounding(&time) && off <= OFF_THE_GRID * step {
-        (0..time.len()).map(on_grid).collect()
-    } else {
-        time
-    }
-}
-
-fn mean_step(time: &[f64]) -> f64 {
-    (time[time.len() - 1] - time[0]) / (time.len() - 1) as f64
+    if off <= rounding(&time) { (0..time.len()).map(on_grid).collect() } else { time }
 }
 
 /// The decimal that all times are multiples of, or what single precision takes from the largest where all are kept so.
