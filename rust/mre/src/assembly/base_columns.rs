@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::base::{Base, Group};
 use super::halves::at_samples;
 use super::layout::Assembly;
-use crate::effect::{Motion, Scene};
+use crate::effect::{Motion, Scene, Slip};
 use crate::law::Law;
 use crate::physics::Part;
 use crate::recording::Recording;
@@ -20,6 +20,14 @@ pub(super) struct BaseColumns {
     pub(super) parts: Vec<Part>,
     /// The columns with values halfway between the samples, where an effect asks for them.
     pub(super) between: Vec<Vec<f64>>,
+}
+
+/// What effects change of what the base model sees, and of how its hysteretic state follows it.
+struct Otherwise {
+    motion: Option<Motion>,
+    /// A.
+    current: Option<Vec<f64>>,
+    slip: Option<Slip>,
 }
 
 impl BaseColumns {
@@ -68,8 +76,8 @@ impl Assembly<'_> {
             let base_shapes = &shapes[..self.base_shapes()];
             let recording = &self.campaign.recordings()[*r];
             let scene = self.scene(*r);
-            let (motion, current) = self.seen(&scene, &self.shape_of(shapes));
-            if motion.is_none() && current.is_none() {
+            let Otherwise { motion, current, slip } = self.otherwise(&scene, &self.shape_of(shapes));
+            if motion.is_none() && current.is_none() && slip.is_none() {
                 let known = at_hand.filter(|known| known.shapes == base_shapes);
                 if let Some(columns) = known.and_then(|known| known.columns.get(*r)) {
                     found.push(Some(columns.clone()));
@@ -81,7 +89,8 @@ impl Assembly<'_> {
                     displacement: scene.displacement.to_vec(),
                     velocity: scene.velocity.to_vec(),
                 });
-                seen.push(Cow::Owned(recording.seen_with(motion.displacement, motion.velocity, current)));
+                let altered = recording.seen_with(motion.displacement, motion.velocity, current);
+                seen.push(Cow::Owned(altered.slipping(slip)));
             }
             found.push(None);
             wanted.push((*r, base_shapes));
@@ -113,15 +122,14 @@ impl Assembly<'_> {
         !self.asks_between() || columns.iter().enumerate().all(has)
     }
 
-    /// True where effects change the motion or the current that the base sees.
+    /// True where effects change the motion or the current that the base sees, or how its state follows them.
     pub(super) fn sees_otherwise(&self, shapes: &[f64]) -> bool {
-        let (motion, current) = self.seen(&self.scene(0), &self.shape_of(shapes));
-        motion.is_some() || current.is_some()
+        let Otherwise { motion, current, slip } = self.otherwise(&self.scene(0), &self.shape_of(shapes));
+        motion.is_some() || current.is_some() || slip.is_some()
     }
 
-    /// Motion and current that the base model sees, where an effect changes them.
-    fn seen(&self, scene: &Scene, shape_of: &[&[f64]]) -> (Option<Motion>, Option<Vec<f64>>) {
-        let (mut motion, mut current): (Option<Motion>, _) = (None, None);
+    fn otherwise(&self, scene: &Scene, shape_of: &[&[f64]]) -> Otherwise {
+        let (mut motion, mut current, mut slip): (Option<Motion>, _, _) = (None, None, None);
         for (effect, shape) in self.effects.iter().zip(shape_of) {
             let so_far = motion.take();
             let mut scene = *scene;
@@ -130,8 +138,9 @@ impl Assembly<'_> {
             }
             current = effect.current(&scene, shape).or(current);
             motion = effect.motion(&scene, shape).or(so_far);
+            slip = effect.slip(shape).or(slip);
         }
-        (motion, current)
+        Otherwise { motion, current, slip }
     }
 }
 

@@ -127,8 +127,10 @@ fn pass(source: Source, additions: &[Addition], recording: &Recording, scene: &S
                 || (own.displacement.to_vec(), own.velocity.to_vec()),
                 |m| (m.displacement, m.velocity),
             );
-            seen = recording.seen_with(x, v, current);
+            seen = seen.seen_with(x, v, current);
         }
+        let slip = effect.slip(shape).or(seen.slip());
+        seen = seen.slipping(slip);
     }
     let mut force = vec![0.0; recording.len()];
     for (part, column) in source.parts(&seen)? {

@@ -16,6 +16,8 @@ use crate::parameter::Parameter;
 pub(super) enum Backlash {
     /// No elastic force within the gap.
     DeadZone,
+    /// The same with round edges.
+    RoundDeadZone,
     /// No force at all within the gap.
     FreeDeadZone,
     /// The device stays where it was left until the gap is crossed.
@@ -31,6 +33,11 @@ const COUNT: i32 = 15;
 /// Displacement beyond a gap of half width `g`.
 fn beyond(x: f64, g: f64) -> f64 {
     x - x.clamp(-g, g)
+}
+
+/// What a gap of half width `g` with round edges takes of a displacement.
+fn round(x: f64, g: f64) -> f64 {
+    if g > 0.0 { g * (x / g).tanh() } else { 0.0 }
 }
 
 /// Displacement of what is dragged with a gap of half width `g`: it stops where the motion turns, which is between
@@ -61,6 +68,11 @@ impl Effect for Backlash {
         };
         match self {
             Self::DeadZone => dead_zone,
+            Self::RoundDeadZone => About {
+                law: "dead zone with round edges",
+                equation: "the device sees x - g tanh(x/g) and its velocity",
+                ..dead_zone
+            },
             Self::FreeDeadZone => About {
                 law: "dead zone without damping",
                 equation: "the device sees x - min(max(x, -g), g) and its velocity",
@@ -81,7 +93,7 @@ impl Effect for Backlash {
 
     fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
         let shares: Vec<f64> = match self {
-            Self::DeadZone => vec![0.003, 0.01, 0.03, 0.08, 0.16, 0.3],
+            Self::DeadZone | Self::RoundDeadZone => vec![0.003, 0.01, 0.03, 0.08, 0.16, 0.3],
             // One of twice the right size explains nothing, and the fit jumps from sample to sample.
             Self::FreeDeadZone | Self::Play => (0..COUNT).map(|k| SMALLEST * RATIO.powi(k)).collect(),
         };
@@ -92,15 +104,17 @@ impl Effect for Backlash {
         let (x, v, g) = (scene.displacement, scene.velocity, shape[0]);
         let displacement = match self {
             Self::DeadZone | Self::FreeDeadZone => each(x, |x| beyond(x, g)),
+            Self::RoundDeadZone => each(x, |x| x - round(x, g)),
             Self::Play => dragged(scene, g),
         };
         let moving = |i: usize| match self {
-            Self::DeadZone => true,
-            Self::FreeDeadZone => displacement[i] != 0.0,
+            Self::RoundDeadZone if g > 0.0 => ((x[i] - displacement[i]) / g).powi(2),
+            Self::DeadZone | Self::RoundDeadZone => 1.0,
+            Self::FreeDeadZone => f64::from(displacement[i] != 0.0),
             // At one end of the gap.
-            Self::Play => (x[i] - displacement[i]).abs() >= g * (1.0 - 1e-9),
+            Self::Play => f64::from((x[i] - displacement[i]).abs() >= g * (1.0 - 1e-9)),
         };
-        let velocity = v.iter().enumerate().map(|(i, v)| if moving(i) { *v } else { 0.0 }).collect();
+        let velocity = v.iter().enumerate().map(|(i, v)| moving(i) * v).collect();
         Some(Motion { displacement, velocity })
     }
 }

@@ -28,6 +28,7 @@ use super::pinching::Pinching;
 use super::quadratic_damping::QuadraticDamping;
 use super::remanence::Remanence;
 use super::rig::Rig;
+use super::slipping::Slipping;
 use super::stiffness_jump::StiffnessJump;
 use super::stribeck::{Fall, Stribeck};
 use super::thermal::Thermal;
@@ -249,15 +250,21 @@ pub const CATALOGUE: &[&dyn Effect] = &[
         "shifted, hysteretic force",
         "k_w -> k_w (1 - s exp(-((x - x_s sgn v)/w)^2))",
     ),
+    &Slipping::ByForce,
+    &Slipping::ByPlace,
     &Pinched::ByForce,
     &Pinched::ByPlace,
     &Backlash::DeadZone,
+    &Backlash::RoundDeadZone,
     &Backlash::FreeDeadZone,
     &Backlash::Play,
     &EndStop::Both,
     &EndStop::Positive,
     &EndStop::Negative,
     &EndStop::Hertz,
+    &EndStop::HuntCrossley,
+    &EndStop::Uneven,
+    &EndStop::UnevenHertz,
     &Rig::Spring,
     &Rig::Viscoelastic,
     &Rig::Joint,

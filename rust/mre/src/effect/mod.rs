@@ -40,6 +40,7 @@ mod quantisation;
 mod remanence;
 mod rig;
 mod scene;
+mod slipping;
 mod smooth_lag;
 mod stiffness_jump;
 mod stribeck;
@@ -50,6 +51,7 @@ mod thermal;
 mod with_current;
 mod work;
 
+pub use crate::kernel::slip::Slip;
 pub use catalogue::{CATALOGUE, named};
 pub(crate) use drift::{DRIFT, MEAN};
 pub use factors::{Factors, Stored};
@@ -185,6 +187,12 @@ pub trait Effect: Send + Sync {
     /// Motion that the base model sees.
     fn motion(&self, scene: &Scene, shape: &[f64]) -> Option<Motion> {
         let _ = (scene, shape);
+        None
+    }
+
+    /// How the hysteretic state of the base model slips.
+    fn slip(&self, shape: &[f64]) -> Option<Slip> {
+        let _ = shape;
         None
     }
 

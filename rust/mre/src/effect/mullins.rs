@@ -16,6 +16,7 @@
 //! Known limit: after the first cycle at a constant amplitude it is part of k0.
 
 use super::{About, Effect, Factors, Scene, Sizes, ideal_above, ideal_below, order_within, within};
+use crate::kernel::elementary::erf;
 use crate::parameter::Parameter;
 
 /// What the softening follows.
@@ -44,13 +45,6 @@ pub(super) struct Mullins {
 pub(super) fn largest_past(scene: &Scene) -> Vec<f64> {
     let x = scene.displacement;
     scene.trace(x[0].abs(), |largest, i| largest.max(x[i].abs()))
-}
-
-/// Error function for a non-negative argument, to 2e-7 (Abramowitz and Stegun 1964, 7.1.26).
-fn erf(x: f64) -> f64 {
-    let t = 1.0 / (1.0 + 0.327_591_1 * x);
-    let series = [1.061_405_429, -1.453_152_027, 1.421_413_741, -0.284_496_736, 0.254_829_592];
-    1.0 - series.iter().fold(0.0, |sum, c| (sum + c) * t) * (-x * x).exp()
 }
 
 impl Effect for Mullins {

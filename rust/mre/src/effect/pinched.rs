@@ -17,19 +17,11 @@
 
 use super::hysteresis::bouc_wen;
 use super::{About, Effect, Scene, Sizes, ideal_above, ideal_below, order_within, orders, positive, within};
+use crate::kernel::climb::Climb;
 use crate::parameter::Parameter;
 
 /// Exponent of the yield.
 const SHARPNESS: f64 = 1.5;
-/// Distance between the nodes of a climb, in yield displacements.
-const STEP: f64 = 0.02;
-/// A state so near the yield is the yield.
-const NEAR: f64 = 1e-6;
-/// Most nodes: where it hardly moves any more.
-const MOST: usize = 20_000;
-/// Newton steps, with the slope of the nodes, from a line to the state on a climb: as exact as its nodes.
-const NEWTON: usize = 3;
-
 /// Share of the dissipative term where the loop is narrow by place: it unloads along a line.
 const EVEN: f64 = 0.5;
 
@@ -42,77 +34,14 @@ pub(super) enum Pinched {
     ByPlace,
 }
 
-/// The state during a motion in one direction, from one yield to the other: all motions follow parts of it, as
-/// the law has no other memory.
-struct Climb {
-    /// Share of the yield force and its slope over the path, at equal steps of the path.
-    nodes: Vec<(f64, f64)>,
-    slip: [f64; 3],
-}
-
-impl Climb {
-    fn new(slip: [f64; 3]) -> Self {
-        let mut climb = Self { nodes: Vec::new(), slip };
-        let mut u = -1.0;
-        while u < 1.0 - NEAR && climb.nodes.len() < MOST {
-            let a = climb.slope(u);
-            climb.nodes.push((u, a));
-            let b = climb.slope(u + 0.5 * STEP * a);
-            let c = climb.slope(u + 0.5 * STEP * b);
-            let d = climb.slope(u + STEP * c);
-            u += STEP * (a + 2.0 * b + 2.0 * c + d) / 6.0;
-        }
-        climb.nodes.push((u.min(1.0), 0.0));
-        climb
-    }
-
-    fn slope(&self, u: f64) -> f64 {
-        let [depth, width, place] = self.slip;
-        let bare = 1.0 - u * u.abs().powf(SHARPNESS - 1.0);
-        bare * (1.0 - depth * (-((u - place) / width).powi(2)).exp())
-    }
-
-    /// State after a path from the yield behind.
-    fn state(&self, path: f64) -> f64 {
-        let last = self.nodes.len() - 1;
-        let far = path / STEP;
-        if far >= last as f64 {
-            return self.nodes[last].0;
-        }
-        let i = far as usize;
-        let ((a, p), (b, q)) = (self.nodes[i], self.nodes[i + 1]);
-        let (t, rise) = (far - i as f64, b - a);
-        let (p, q) = (STEP * p, STEP * q);
-        a + t * (p + t * (3.0 * rise - 2.0 * p - q + t * (p + q - 2.0 * rise)))
-    }
-
-    /// Path from the yield behind to a state.
-    fn path(&self, state: f64) -> f64 {
-        let i = self.nodes.partition_point(|(u, _)| *u <= state).clamp(1, self.nodes.len() - 1) - 1;
-        let ((a, p), (b, q)) = (self.nodes[i], self.nodes[i + 1]);
-        let (from, to) = (i as f64 * STEP, (i + 1) as f64 * STEP);
-        let mut path = from + STEP * (state - a) / (b - a);
-        for _ in 0..NEWTON {
-            let slope = p + (q - p) * (path - from) / STEP;
-            path = (path + (state - self.state(path)) / slope.max(NEAR)).clamp(from, to);
-        }
-        path
-    }
-}
-
 /// State over its yield value along the displacement.
 fn slipping(scene: &Scene, shape: &[f64]) -> Vec<f64> {
-    let climb = Climb::new([shape[1], shape[2], shape[3]]);
-    let (x, rho) = (scene.displacement, shape[0]);
-    let (mut side, mut path) = (1.0, climb.path(0.0));
-    scene.trace(0.0, |w, i| {
-        let far = x[i] - x[i - 1];
-        if far * side < 0.0 {
-            (side, path) = (-side, climb.path(-w * side));
-        }
-        path += rho * far.abs();
-        side * climb.state(path)
-    })
+    let (rho, depth, width, place) = (shape[0], shape[1], shape[2], shape[3]);
+    let climb = Climb::new(|u| {
+        let bare = 1.0 - u * u.abs().powf(SHARPNESS - 1.0);
+        bare * (1.0 - depth * (-((u - place) / width).powi(2)).exp())
+    });
+    climb.states(rho, scene.displacement, |_| None)
 }
 
 /// State over its yield value, less what is lost about the middle position.

@@ -138,6 +138,14 @@ pub(super) fn power_lane<const FUSED: bool>(x: f64, n: f64) -> f64 {
     f64::from_bits(exp2.to_bits().wrapping_add(shifted.to_bits() << 52))
 }
 
+/// Error function, to 2e-7 (Abramowitz and Stegun 1964, 7.1.26).
+pub(crate) fn erf(x: f64) -> f64 {
+    let size = x.abs();
+    let t = 1.0 / (1.0 + 0.327_591_1 * size);
+    let series = [1.061_405_429, -1.453_152_027, 1.421_413_741, -0.284_496_736, 0.254_829_592];
+    (1.0 - series.iter().fold(0.0, |sum, c| (sum + c) * t) * (-size * size).exp()).copysign(x)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -9,6 +9,7 @@
 pub(crate) mod bessel;
 pub(crate) mod bouc_wen_gram;
 mod bouc_wen_rk4;
+pub(crate) mod climb;
 mod dispatch;
 pub(crate) mod elementary;
 #[cfg(test)]
@@ -23,6 +24,7 @@ mod sinh;
 pub(crate) mod sinh_compressed;
 mod sinh_direct;
 mod sinh_series;
+pub(crate) mod slip;
 pub(crate) mod spline;
 mod total;
 pub(crate) mod triangle;

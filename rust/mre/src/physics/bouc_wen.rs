@@ -16,10 +16,13 @@
 //! [`STEP`] asks for it.
 //! Known limit: short unload-reload cycles drift.
 
+use rayon::prelude::*;
+
 use super::{Part, Term};
 use crate::extent::Extent;
 use crate::kernel::hysteretic;
 use crate::kernel::hysteretic_traces::{Motion, traces};
+use crate::kernel::slip;
 use crate::parameter::{Ideal, Parameter, Scale};
 use crate::recording::Recording;
 
@@ -70,10 +73,26 @@ impl Term for BoucWen {
 
     fn column(&self, recording: &Recording, shape: &[f64], out: &mut [f64]) {
         let (time, velocity) = (recording.time(), recording.velocity());
-        hysteretic::trace(time, velocity, [shape[0], shape[1], shape[2]], out);
+        let shape = [shape[0], shape[1], shape[2]];
+        match recording.slip() {
+            Some(slip) => {
+                out.copy_from_slice(&slip::trace(time, recording.displacement(), velocity, shape, slip));
+            }
+            None => hysteretic::trace(time, velocity, shape, out),
+        }
     }
 
     fn columns(&self, of: &[(&Recording, &[f64])]) -> Vec<Vec<f64>> {
+        if of.iter().any(|(recording, _)| recording.slip().is_some()) {
+            return of
+                .par_iter()
+                .map(|(recording, shape)| {
+                    let mut out = vec![0.0; recording.len()];
+                    self.column(recording, shape, &mut out);
+                    out
+                })
+                .collect();
+        }
         let motions: Vec<Motion> = of
             .iter()
             .map(|(recording, shape)| Motion {

@@ -13,6 +13,7 @@ pub use condition::Condition;
 pub(crate) use grid::even_step;
 
 use crate::error::{Error, Result};
+use crate::kernel::slip::Slip;
 use crate::velocity;
 
 /// Fewest samples from which a velocity and five parameters can be told.
@@ -54,6 +55,7 @@ pub struct Recording {
     velocity: Vec<f64>,
     velocity_window: Option<f64>,
     scored: Range<usize>,
+    slip: Option<Slip>,
 }
 
 impl Recording {
@@ -77,7 +79,7 @@ impl Recording {
             (derived.velocity, Some(window))
         };
         let scored = 0..velocity.len();
-        Ok(Self { series, velocity, velocity_window, scored })
+        Ok(Self { series, velocity, velocity_window, scored, slip: None })
     }
 
     /// Number of samples.
@@ -216,6 +218,16 @@ impl Recording {
             seen.series.current = Condition::Series(current);
         }
         seen
+    }
+
+    /// The same recording of a device whose hysteretic state slips.
+    pub(crate) fn slipping(self, slip: Option<Slip>) -> Self {
+        Self { slip, ..self }
+    }
+
+    /// How the hysteretic state of the device slips; `None`: it does not.
+    pub(crate) fn slip(&self) -> Option<Slip> {
+        self.slip
     }
 }
 
