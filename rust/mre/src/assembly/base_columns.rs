@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::base::{Base, Group};
 use super::halves::at_samples;
 use super::layout::Assembly;
-use crate::effect::{Motion, Scene, Slip};
+use crate::effect::{Motion, Scene, StateChange};
 use crate::law::Law;
 use crate::physics::Part;
 use crate::recording::Recording;
@@ -27,7 +27,7 @@ struct Otherwise {
     motion: Option<Motion>,
     /// A.
     current: Option<Vec<f64>>,
-    slip: Option<Slip>,
+    state: Option<StateChange>,
 }
 
 impl BaseColumns {
@@ -76,8 +76,8 @@ impl Assembly<'_> {
             let base_shapes = &shapes[..self.base_shapes()];
             let recording = &self.campaign.recordings()[*r];
             let scene = self.scene(*r);
-            let Otherwise { motion, current, slip } = self.otherwise(&scene, &self.shape_of(shapes));
-            if motion.is_none() && current.is_none() && slip.is_none() {
+            let Otherwise { motion, current, state } = self.otherwise(&scene, &self.shape_of(shapes));
+            if motion.is_none() && current.is_none() && state.is_none() {
                 let known = at_hand.filter(|known| known.shapes == base_shapes);
                 if let Some(columns) = known.and_then(|known| known.columns.get(*r)) {
                     found.push(Some(columns.clone()));
@@ -90,7 +90,7 @@ impl Assembly<'_> {
                     velocity: scene.velocity.to_vec(),
                 });
                 let altered = recording.seen_with(motion.displacement, motion.velocity, current);
-                seen.push(Cow::Owned(altered.slipping(slip)));
+                seen.push(Cow::Owned(altered.with_state_change(state)));
             }
             found.push(None);
             wanted.push((*r, base_shapes));
@@ -124,12 +124,12 @@ impl Assembly<'_> {
 
     /// True where effects change the motion or the current that the base sees, or how its state follows them.
     pub(super) fn sees_otherwise(&self, shapes: &[f64]) -> bool {
-        let Otherwise { motion, current, slip } = self.otherwise(&self.scene(0), &self.shape_of(shapes));
-        motion.is_some() || current.is_some() || slip.is_some()
+        let Otherwise { motion, current, state } = self.otherwise(&self.scene(0), &self.shape_of(shapes));
+        motion.is_some() || current.is_some() || state.is_some()
     }
 
     fn otherwise(&self, scene: &Scene, shape_of: &[&[f64]]) -> Otherwise {
-        let (mut motion, mut current, mut slip): (Option<Motion>, _, _) = (None, None, None);
+        let (mut motion, mut current, mut state): (Option<Motion>, _, _) = (None, None, None);
         for (effect, shape) in self.effects.iter().zip(shape_of) {
             let so_far = motion.take();
             let mut scene = *scene;
@@ -138,10 +138,15 @@ impl Assembly<'_> {
             }
             current = effect.current(&scene, shape).or(current);
             motion = effect.motion(&scene, shape).or(so_far);
-            slip = effect.slip(shape).or(slip);
+            state = also(state, effect.state_change(shape));
         }
-        Otherwise { motion, current, slip }
+        Otherwise { motion, current, state }
     }
+}
+
+/// Changes of the law of a state one after the other.
+pub(super) fn also(before: Option<StateChange>, more: Option<StateChange>) -> Option<StateChange> {
+    before.into_iter().chain(more).reduce(StateChange::and)
 }
 
 /// Columns of a model that is fitted in groups.

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::base_columns::also;
 use super::campaign::Campaign;
 use super::in_series::InSeries;
 use crate::device::Device;
@@ -129,8 +130,8 @@ fn pass(source: Source, additions: &[Addition], recording: &Recording, scene: &S
             );
             seen = seen.seen_with(x, v, current);
         }
-        let slip = effect.slip(shape).or(seen.slip());
-        seen = seen.slipping(slip);
+        let state = also(seen.state_change(), effect.state_change(shape));
+        seen = seen.with_state_change(state);
     }
     let mut force = vec![0.0; recording.len()];
     for (part, column) in source.parts(&seen)? {

@@ -32,6 +32,7 @@ use super::slipping::Slipping;
 use super::stiffness_jump::StiffnessJump;
 use super::stribeck::{Fall, Stribeck};
 use super::thermal::Thermal;
+use super::wearing::Wearing;
 use super::with_current::WithCurrent;
 use super::work::Work;
 
@@ -214,6 +215,9 @@ pub const CATALOGUE: &[&dyn Effect] = &[
         "dissipated energy, saturating, hysteretic force",
         "k_w -> k_w (1 - s (1 - exp(-E/E_c))), E the largest integral of F v so far",
     ),
+    &Wearing::Strength,
+    &Wearing::Stiffness,
+    &Wearing::Both,
     &Payne { by: Amplitude::Forgotten, whole: false },
     &Payne { by: Amplitude::Forgotten, whole: true },
     &Payne { by: Amplitude::HalfCycle, whole: false },

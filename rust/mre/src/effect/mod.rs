@@ -48,10 +48,11 @@ mod stribeck;
 #[allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 mod tests;
 mod thermal;
+mod wearing;
 mod with_current;
 mod work;
 
-pub use crate::kernel::slip::Slip;
+pub use crate::kernel::state_change::{Slip, StateChange, Wear};
 pub use catalogue::{CATALOGUE, named};
 pub(crate) use drift::{DRIFT, MEAN};
 pub use factors::{Factors, Stored};
@@ -190,8 +191,8 @@ pub trait Effect: Send + Sync {
         None
     }
 
-    /// How the hysteretic state of the base model slips.
-    fn slip(&self, shape: &[f64]) -> Option<Slip> {
+    /// What is changed of the law of the hysteretic state of the base model.
+    fn state_change(&self, shape: &[f64]) -> Option<StateChange> {
         let _ = shape;
         None
     }

@@ -41,7 +41,7 @@ fn slipping(scene: &Scene, shape: &[f64]) -> Vec<f64> {
         let bare = 1.0 - u * u.abs().powf(SHARPNESS - 1.0);
         bare * (1.0 - depth * (-((u - place) / width).powi(2)).exp())
     });
-    climb.states(rho, scene.displacement, |_| None)
+    climb.states(rho, scene.displacement)
 }
 
 /// State over its yield value, less what is lost about the middle position.

@@ -10,7 +10,7 @@
 //! Reference: Baber and Noori, J. Vib. Acoust. Stress Reliab. Des. 108 (1986) 411.
 //! Known limit: only for a hysteretic base model; below the yield force a wide slip is another stiffness.
 
-use super::{About, Effect, Sizes, Slip, ideal_above, order_within, within};
+use super::{About, Effect, Sizes, Slip, StateChange, ideal_above, order_within, within};
 use crate::parameter::Parameter;
 
 /// Where the state of the base slips.
@@ -65,10 +65,11 @@ impl Effect for Slipping {
         }
     }
 
-    fn slip(&self, shape: &[f64]) -> Option<Slip> {
-        Some(match self {
+    fn state_change(&self, shape: &[f64]) -> Option<StateChange> {
+        let slip = match self {
             Self::ByForce => Slip::ByForce { depth: shape[0], width: shape[1], place: shape[2] },
             Self::ByPlace => Slip::ByPlace { depth: shape[0], width: shape[1] },
-        })
+        };
+        Some(StateChange { slip: Some(slip), ..StateChange::default() })
     }
 }

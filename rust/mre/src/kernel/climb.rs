@@ -33,21 +33,17 @@ impl Climb {
         Self { nodes }
     }
 
-    /// States along a displacement from rest, of an element that has `rho` yields in its unit. `turn` gives where a
-    /// motion turns between the sample before `i` and `i`, if it does.
-    pub(crate) fn states(&self, rho: f64, path: &[f64], turn: impl Fn(usize) -> Option<f64>) -> Vec<f64> {
-        let mut on = On { climb: self, rho, side: 1.0, at: self.path(0.0), state: 0.0 };
-        let mut found = Vec::with_capacity(path.len());
-        found.push(0.0);
-        for i in 1..path.len() {
-            let from = turn(i).map_or(path[i - 1], |turned| {
-                on.go(turned - path[i - 1]);
-                turned
-            });
-            on.go(path[i] - from);
-            found.push(on.state);
-        }
-        found
+    /// A state at rest on the climb, of an element with `rho` yields in its unit of displacement.
+    pub(crate) fn at_rest(&self, rho: f64) -> OnClimb<'_> {
+        OnClimb { climb: self, rho, side: 1.0, at: self.path(0.0), state: 0.0 }
+    }
+
+    /// States along a displacement, from rest.
+    pub(crate) fn states(&self, rho: f64, path: &[f64]) -> Vec<f64> {
+        let mut on = self.at_rest(rho);
+        let from = path.first().into_iter().chain(path);
+        let moved = from.zip(path).map(|(from, to)| on.moved(to - from));
+        moved.collect()
     }
 
     /// State after a path from the yield behind.
@@ -79,7 +75,7 @@ impl Climb {
 }
 
 /// A state that moves on a climb.
-struct On<'c> {
+pub(crate) struct OnClimb<'c> {
     climb: &'c Climb,
     rho: f64,
     /// Direction of the motion.
@@ -89,14 +85,22 @@ struct On<'c> {
     state: f64,
 }
 
-impl On<'_> {
-    fn go(&mut self, far: f64) {
+impl OnClimb<'_> {
+    /// The state after a displacement in one direction.
+    pub(crate) fn moved(&mut self, far: f64) -> f64 {
         if far * self.side < 0.0 {
             self.side = -self.side;
             self.at = self.climb.path(self.side * self.state);
         }
         self.at += self.rho * far.abs();
         self.state = self.side * self.climb.state(self.at);
+        self.state
+    }
+
+    /// Another state, of an element that yields otherwise from here on.
+    pub(crate) fn set(&mut self, state: f64, rho: f64) {
+        (self.state, self.rho) = (state, rho);
+        self.at = self.climb.path(self.side * state);
     }
 }
 
@@ -109,11 +113,11 @@ mod tests {
         // du/dp = 1 - u from rest, back by twice as much from where it turned.
         let climb = Climb::new(|u| 1.0 - u);
         let path: Vec<f64> = (0..=300).map(|i| 0.01 * f64::from(i)).collect();
-        for (p, u) in path.iter().zip(climb.states(1.0, &path, |_| None)) {
+        for (p, u) in path.iter().zip(climb.states(1.0, &path)) {
             assert!((u - (1.0 - (-p).exp())).abs() < 1e-7, "{p} {u}");
         }
         let turned = 1.0 - (-1.0_f64).exp();
-        let back = climb.states(1.0, &[0.0, 0.5, 0.2], |i| (i == 2).then_some(1.0))[2];
+        let back = climb.states(1.0, &[0.0, 0.5, 1.0, 0.2])[3];
         let wanted = -(1.0 - (1.0 + turned) * (-0.8_f64).exp());
         assert!((back - wanted).abs() < 1e-7, "{back} {wanted}");
     }

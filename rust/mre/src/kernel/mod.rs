@@ -24,8 +24,8 @@ mod sinh;
 pub(crate) mod sinh_compressed;
 mod sinh_direct;
 mod sinh_series;
-pub(crate) mod slip;
 pub(crate) mod spline;
+pub(crate) mod state_change;
 mod total;
 pub(crate) mod triangle;
 

@@ -22,7 +22,7 @@ use super::{Part, Term};
 use crate::extent::Extent;
 use crate::kernel::hysteretic;
 use crate::kernel::hysteretic_traces::{Motion, traces};
-use crate::kernel::slip;
+use crate::kernel::state_change;
 use crate::parameter::{Ideal, Parameter, Scale};
 use crate::recording::Recording;
 
@@ -74,16 +74,22 @@ impl Term for BoucWen {
     fn column(&self, recording: &Recording, shape: &[f64], out: &mut [f64]) {
         let (time, velocity) = (recording.time(), recording.velocity());
         let shape = [shape[0], shape[1], shape[2]];
-        match recording.slip() {
-            Some(slip) => {
-                out.copy_from_slice(&slip::trace(time, recording.displacement(), velocity, shape, slip));
+        match recording.state_change() {
+            Some(change) => {
+                out.copy_from_slice(&state_change::trace(
+                    time,
+                    recording.displacement(),
+                    velocity,
+                    shape,
+                    change,
+                ));
             }
             None => hysteretic::trace(time, velocity, shape, out),
         }
     }
 
     fn columns(&self, of: &[(&Recording, &[f64])]) -> Vec<Vec<f64>> {
-        if of.iter().any(|(recording, _)| recording.slip().is_some()) {
+        if of.iter().any(|(recording, _)| recording.state_change().is_some()) {
             return of
                 .par_iter()
                 .map(|(recording, shape)| {

@@ -13,7 +13,7 @@ pub use condition::Condition;
 pub(crate) use grid::even_step;
 
 use crate::error::{Error, Result};
-use crate::kernel::slip::Slip;
+use crate::kernel::state_change::StateChange;
 use crate::velocity;
 
 /// Fewest samples from which a velocity and five parameters can be told.
@@ -55,7 +55,7 @@ pub struct Recording {
     velocity: Vec<f64>,
     velocity_window: Option<f64>,
     scored: Range<usize>,
-    slip: Option<Slip>,
+    state_change: Option<StateChange>,
 }
 
 impl Recording {
@@ -79,7 +79,7 @@ impl Recording {
             (derived.velocity, Some(window))
         };
         let scored = 0..velocity.len();
-        Ok(Self { series, velocity, velocity_window, scored, slip: None })
+        Ok(Self { series, velocity, velocity_window, scored, state_change: None })
     }
 
     /// Number of samples.
@@ -220,14 +220,14 @@ impl Recording {
         seen
     }
 
-    /// The same recording of a device whose hysteretic state slips.
-    pub(crate) fn slipping(self, slip: Option<Slip>) -> Self {
-        Self { slip, ..self }
+    /// The same recording of a device whose hysteretic state has another law.
+    pub(crate) fn with_state_change(self, state_change: Option<StateChange>) -> Self {
+        Self { state_change, ..self }
     }
 
-    /// How the hysteretic state of the device slips; `None`: it does not.
-    pub(crate) fn slip(&self) -> Option<Slip> {
-        self.slip
+    /// What is changed of the law of the hysteretic state of the device; `None`: nothing.
+    pub(crate) fn state_change(&self) -> Option<StateChange> {
+        self.state_change
     }
 }
 

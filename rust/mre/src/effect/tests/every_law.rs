@@ -177,7 +177,7 @@ fn a_law_without_columns_changes_something_at_its_starts() {
             let changed = made(*effect, &scene, &start)
                 .iter()
                 .any(|series| !same.contains(&series.as_slice()) && series.iter().any(|v| *v != 1.0));
-            assert!(changed || effect.slip(&start).is_some(), "{:?} at {start:?}", effect.about());
+            assert!(changed || effect.state_change(&start).is_some(), "{:?} at {start:?}", effect.about());
         }
     }
 }
