@@ -14,6 +14,7 @@ use super::null::Null;
 use super::plain_mismatch;
 use super::point::forces;
 use super::screen::Score;
+use super::search::REFITTED;
 use super::settings::Settings;
 use super::slow::temper;
 use super::starts::{calm, without_initial_state};
@@ -167,7 +168,21 @@ fn promising<'s>(null: &Null, scores: &'s [Score], most: usize) -> Vec<Held<'s>>
             kept.push(held);
         }
     }
+    if most >= REFITTED {
+        kept.extend(in_series(null, scores, &kept));
+    }
     kept
+}
+
+/// The plainest law of what gives way in series with a hysteretic base, unless one is there: behind it the base is
+/// another, of which its tangents as it is tell nothing.
+fn in_series<'s>(null: &Null, scores: &'s [Score], kept: &[Held]) -> Option<Held<'s>> {
+    let gives_way = |score: &Score| score.effect.flexibility(&score.start).is_some();
+    if !null.assembly().base().is_hysteretic() || kept.iter().any(|held| gives_way(held.score)) {
+        return None;
+    }
+    let score = scores.iter().find(|score| gives_way(score))?;
+    Some(Held { score, shape: score.start.clone(), gain: score.gain })
 }
 
 /// Joint fits of the most promising laws, best first.

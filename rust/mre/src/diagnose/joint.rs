@@ -34,7 +34,10 @@ pub(super) fn joint<'a>(
         return fit(wider, data, &unit);
     }
     // The tangents of the model tell little of a rig: behind a soft one the device is another.
-    let all: Vec<Vec<f64>> = std::iter::once(unit.clone()).chain(of_the_last(&wider, &known)).collect();
+    let all: Vec<Vec<f64>> = std::iter::once(unit.clone())
+        .chain(of_the_last(&wider, &known))
+        .chain(behind_the_last(&wider, &known))
+        .collect();
     let best = best_of(&wider, data, all, &OF_AN_EFFECT).map_or(unit, |best| best.unit);
     fit(wider, data, &best)
 }
@@ -43,6 +46,24 @@ pub(super) fn joint<'a>(
 fn of_the_last(assembly: &Assembly, before: &[f64]) -> Vec<Vec<f64>> {
     let starts = assembly.effects().last().map(|effect| effect.starts(assembly.campaign().sizes()));
     starts.unwrap_or_default().iter().map(|start| assembly.unit(&[before, start].concat())).collect()
+}
+
+/// Other shapes of a hysteretic base behind the softest start of a last effect that gives way: where the two are in
+/// series, a base of its own takes their yield for its own.
+fn behind_the_last(assembly: &Assembly, before: &[f64]) -> Vec<Vec<f64>> {
+    let size = |start: &[f64]| {
+        let effect = assembly.effects().last()?;
+        Some(effect.flexibility(start)?.size)
+    };
+    let own = assembly.effects().last().map(|effect| effect.starts(assembly.campaign().sizes()));
+    let softest = own
+        .unwrap_or_default()
+        .into_iter()
+        .max_by(|a, b| size(a).unwrap_or(0.0).total_cmp(&size(b).unwrap_or(0.0)));
+    let Some(softest) = softest.filter(|_| assembly.base().is_hysteretic()) else { return Vec::new() };
+    let unit = assembly.unit(&[before, &softest].concat());
+    let others = starts(assembly.base()).into_iter().filter(|start| !start.is_empty());
+    others.map(|start| [&start, &unit[start.len()..]].concat()).collect()
 }
 
 /// Fit from a point of the unit box; repeated where an effect follows from the force that is fitted.

@@ -7,6 +7,7 @@ use super::monitor::Stage;
 use super::noise::Noise;
 use super::prove::prove;
 use super::search::{Named, Search};
+use super::strained::any_strained;
 
 /// A model with those of its effects, by place, that are kept, refitted.
 fn keeping<'a>(named: &Named<'a>, data: Data, kept: impl Fn(usize) -> bool) -> Candidate<'a> {
@@ -39,7 +40,19 @@ impl<'a> Search<'_, 'a> {
         keeping(named, self.data(&named.noise), |other| other != place)
     }
 
-    /// Remove effects that the others make unnecessary.
+    /// True where the effect at a place fits only where its law ends, and is the lesser one: beside others it patches
+    /// their form. `without` is the model without it.
+    pub(super) fn patches(&self, named: &Named<'a>, place: usize, without: &Candidate<'a>) -> bool {
+        let data = self.data(&named.noise);
+        if !any_strained(named, data, place..place + 1) {
+            return false;
+        }
+        let alone = beside_a_hum(named, data, self.given());
+        let taken_off = |c: &Candidate| alone.fitted.left - c.fitted.left;
+        taken_off(without) > 0.5 * taken_off(&named.itself())
+    }
+
+    /// Remove effects that the others make unnecessary, or that only patch their form.
     pub(super) fn without_the_needless(&self, named: Named<'a>) -> Named<'a> {
         let mut here = named;
         let mut place = self.given();
@@ -47,8 +60,9 @@ impl<'a> Search<'_, 'a> {
             let now = here.itself();
             let tried = self.monitor.stage(Stage::Needless, || {
                 let without = self.drop(&here, place);
-                let needless =
-                    without.criterion() < now.criterion() || self.idle(&now, &without, &here.noise);
+                let needless = without.criterion() < now.criterion()
+                    || self.idle(&now, &without, &here.noise)
+                    || self.patches(&here, place, &without);
                 (without, needless)
             });
             let Some((without, needless)) = tried else { break };

@@ -96,12 +96,17 @@ impl<'a> Search<'_, 'a> {
         let mut refused = None;
         for next in self.in_turn(here) {
             let Some(best) = self.further(here, next) else { continue };
-            if self.worth(here, next, &best, by_first) == Some(true) {
+            if self.worth(here, next, &best, by_first) == Some(true) && !self.patches_the_others(&best) {
                 return Some(best);
             }
             refused = moves(next).then_some(best);
         }
         self.two_worth_adding(here, &refused?, by_first)
+    }
+
+    fn patches_the_others(&self, named: &Named<'a>) -> bool {
+        let last = named.assembly.effects().len() - 1;
+        self.patches(named, last, &self.drop(named, last))
     }
 
     /// A model with one more effect under its best law, if that is significant.
