@@ -27,6 +27,8 @@ class Resolved:
     """Kind of the proposed test."""
     expected: float = 0.0
     """Chance, as the tool gives it, that one effect alone is left."""
+    left: frozenset[str] = frozenset()
+    """What the tool expects to be left in doubt beside the truth."""
 
     @property
     def doubted(self) -> bool:
@@ -38,6 +40,12 @@ class Resolved:
         """The truth alone is left."""
         return self.after == set(self.trial.case.effects)
 
+    @property
+    def as_told(self) -> bool:
+        """The truth is left, and no more beside it than the tool expects."""
+        truth = frozenset(self.trial.case.effects)
+        return truth <= self.after <= truth | self.left
+
 
 def run(trial: Trial) -> Resolved:
     """Diagnose, record the proposed test, diagnose again."""
@@ -48,7 +56,9 @@ def run(trial: Trial) -> Resolved:
     if proposal is None or len(before) < 2 or not told:
         return Resolved(trial, before, told, before)
     after = _said(_diagnosed(trial, (proposed(proposal, current=1.0),)))
-    return Resolved(trial, before, told, after, str(proposal["excitation"]), float(proposal["certainty"]))
+    left = frozenset(one for truth in trial.case.effects for one in proposal["leaves"].get(truth, ()))
+    kind, expected = str(proposal["excitation"]), float(proposal["certainty"])
+    return Resolved(trial, before, told, after, kind, expected, left)
 
 
 def proposed(proposal: Mapping[str, Any], current: float) -> Excitation:

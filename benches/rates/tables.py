@@ -97,6 +97,7 @@ def resolved(found: Sequence[Resolved]) -> str:
             len(own),
             f"{100 * sum(r.expected for r in own) / max(len(own), 1):.0f} %",
             Rate(sum(r.right for r in own), len(own)),
+            Rate(sum(r.as_told for r in own), len(own)),
             sum(len(r.after) > 1 and set(r.trial.case.effects) <= r.after for r in own),
             sum(not set(r.trial.case.effects) <= r.after for r in own),
         )
@@ -104,17 +105,20 @@ def resolved(found: Sequence[Resolved]) -> str:
     ]
     head = (
         *("proposed test", "in doubt before", "the tool expects one effect alone after it"),
-        *("the truth alone after", "still in doubt", "truth lost"),
+        *("the truth alone after", "the truth, and no more beside it than the tool expects"),
+        *("still in doubt", "truth lost"),
     )
     of_all = Rate(sum(r.right for r in tested), len(doubted))
     hopeless = [r for r in doubted if not r.told]
     sure = [r for r in tested if r.expected >= SURE]
+    alone = [r for r in tested if not r.left]
     text = (
         f"Of {len(found)} campaigns {len(doubted)} left several, the truth among them."
         f" In {len(hopeless)} the tool says that no test within the limits would tell: {_listed(hopeless)}."
         f" The truth alone after a test, of all: {of_all};"
         f" of those where {100 * SURE:.0f} % or more is expected:"
-        f" {Rate(sum(r.right for r in sure), len(sure))}."
+        f" {Rate(sum(r.right for r in sure), len(sure))}; of those where nothing else is expected beside the"
+        f" truth: {Rate(sum(r.right for r in alone), len(alone))}."
         f" Not resolved: {_listed([r for r in tested if not r.right])}."
     )
     return f"{table(head, rows)}\n\n{text}"

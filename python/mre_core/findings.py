@@ -211,6 +211,7 @@ def next_test_of(raw: Raw) -> dict[str, Any] | None:
         "current_A": current[0] if current else None,
         "separates": separates,
         "chances": best["chances"],
+        "leaves": best["leaves"],
         "certainty": best["certainty"],
         "limits": limits,
         "others": found["prospects"][1:],

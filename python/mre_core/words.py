@@ -226,9 +226,14 @@ def next_test(best: Mapping[str, Any], separates: Sequence[str], limits: Mapping
     left = (
         "" if certainty is None else f"; the chance that one effect alone is left is {100 * certainty:.0f} %"
     )
+    twins = [
+        f"if {truth} is true, it would not be told from {listed(others)}"
+        for truth, others in best["leaves"].items()
+        if others
+    ]
     return (
         f"{signal}, {limits['duration_s']:.3g} s long at {limits['rate_hz']:.4g} samples a second,"
-        f" is expected to show or to rule out {listed(separates)}{left}"
+        f" is expected to show or to rule out {listed(separates)}{''.join(f'; {one}' for one in twins)}{left}"
     )
 
 

@@ -111,9 +111,11 @@ fn next_test(found: &NextTest) -> Value {
     let prospect = |p: &Prospect| {
         let chances: serde_json::Map<String, Value> =
             p.chances.iter().map(|(id, chance)| ((*id).to_owned(), json!(chance))).collect();
+        let leaves: serde_json::Map<String, Value> =
+            p.leaves.iter().map(|(id, left)| ((*id).to_owned(), json!(left))).collect();
         json!({
             "excitation": p.kind.id(), "frequency_hz": p.frequency, "amplitude_mm": p.amplitude,
-            "duration_s": p.duration, "chances": chances, "certainty": p.certainty,
+            "duration_s": p.duration, "chances": chances, "leaves": leaves, "certainty": p.certainty,
         })
     };
     let l = &found.limits;

@@ -55,7 +55,7 @@ impl<'b, 'a> Bench<'b, 'a> {
         let models = doubt.models(named);
         let data = Data { noise: &named.noise, rows, monitor };
         let held = models.par_iter().map(|model| Held::of(model, data)).collect();
-        let places = doubt.places(&criteria(&models));
+        let places = doubt.places(named, &criteria(&models));
         let rivals = places.iter().flatten().map(|member| member.likeliest).filter(|model| *model > 0);
         let truths = std::iter::once(0).chain(rivals).collect();
         let noise = named.noise.with_another_like(0);

@@ -11,6 +11,8 @@ const PLENTY: f64 = 100.0;
 const SURER: f64 = 0.05;
 /// Logarithm of the highest odds that are told of a rival: where it is as good as certain.
 const MOST_ODDS: f64 = 50.0;
+/// A rival with a smaller chance of being ruled out is expected to be left.
+const EVEN: f64 = 0.5;
 
 /// A model that fits about as well as the one named, with a law in the place of one of its own.
 pub(in super::super) struct Rival<'a> {
@@ -33,8 +35,7 @@ pub(in super::super) struct Doubt<'a> {
 
 /// One of the effects that may stand in a place.
 pub(super) struct Member {
-    /// `None`: the one named.
-    effect: Option<&'static str>,
+    effect: &'static str,
     /// Its likeliest model.
     pub(super) likeliest: usize,
     /// All of its models.
@@ -46,6 +47,8 @@ pub(super) struct Member {
 pub(super) struct Told {
     /// Chance that each is told from the one named, whichever of the two is true.
     pub(super) chances: Vec<(&'static str, f64)>,
+    /// For each that may be true, first the one named: what would be left in doubt beside it.
+    pub(super) leaves: Vec<(&'static str, Vec<&'static str>)>,
     /// Chance that nothing is in doubt any more.
     pub(super) certainty: f64,
     /// How many effects are ruled out, and a little for more evidence than that takes.
@@ -60,25 +63,28 @@ impl<'a> Doubt<'a> {
     }
 
     /// What may stand in each place in doubt, the effect named first.
-    pub(super) fn places(&self, criteria: &[f64]) -> Vec<Vec<Member>> {
+    pub(super) fn places(&self, named: &Named, criteria: &[f64]) -> Vec<Vec<Member>> {
         let mut places: Vec<usize> = self.rivals.iter().map(|rival| rival.place).collect();
         places.dedup();
-        places.into_iter().map(|place| self.members(place, criteria)).collect()
+        let effects = named.assembly.effects();
+        places.into_iter().map(|place| self.members(effects[place].about().effect, place, criteria)).collect()
     }
 
-    fn members(&self, place: usize, criteria: &[f64]) -> Vec<Member> {
+    fn members(&self, effect: &'static str, place: usize, criteria: &[f64]) -> Vec<Member> {
         let first = 1 + self.laws.len();
         let laws = self.laws.iter().enumerate().filter(|(_, law)| law.place == place).map(|(i, _)| 1 + i);
         let mut found =
-            vec![Member { effect: None, likeliest: 0, models: std::iter::once(0).chain(laws).collect() }];
+            vec![Member { effect, likeliest: 0, models: std::iter::once(0).chain(laws).collect() }];
         for (i, rival) in self.rivals.iter().enumerate().filter(|(_, rival)| rival.place == place) {
-            match found.iter_mut().find(|member| member.effect == Some(rival.effect)) {
+            match found.iter_mut().find(|member| member.effect == rival.effect) {
                 Some(member) => member.models.push(first + i),
-                None => found.push(Member {
-                    effect: Some(rival.effect),
-                    likeliest: first + i,
-                    models: vec![first + i],
-                }),
+                None => {
+                    found.push(Member {
+                        effect: rival.effect,
+                        likeliest: first + i,
+                        models: vec![first + i],
+                    });
+                }
             }
         }
         for member in &mut found[1..] {
@@ -92,7 +98,7 @@ impl<'a> Doubt<'a> {
 /// What evidence tells of what may stand in each place, given the criteria of all models, and the difference in the
 /// criterion by which a first model that is true rules out a second.
 pub(super) fn told(places: &[Vec<Member>], criteria: &[f64], against: impl Fn(usize, usize) -> f64) -> Told {
-    let mut all = Told { chances: Vec::new(), certainty: 1.0, worth: 0.0 };
+    let mut all = Told { chances: Vec::new(), leaves: Vec::new(), certainty: 1.0, worth: 0.0 };
     for members in places {
         let odds: Vec<f64> = members
             .iter()
@@ -105,14 +111,16 @@ pub(super) fn told(places: &[Vec<Member>], criteria: &[f64], against: impl Fn(us
         };
         let mut certainty = 0.0;
         for (truth, odds) in members.iter().zip(&odds) {
-            let others = members.iter().filter(|other| other.likeliest != truth.likeliest);
-            let against: Vec<f64> = others.map(|other| evidence(truth, other)).collect();
+            let others = || members.iter().filter(|other| other.likeliest != truth.likeliest);
+            let against: Vec<f64> = others().map(|other| evidence(truth, other)).collect();
+            let doubted = others().zip(&against).filter(|(_, e)| chance(**e) < EVEN);
+            all.leaves.push((truth.effect, doubted.map(|(other, _)| other.effect).collect()));
             certainty += odds / whole * against.iter().map(|e| chance(*e)).fold(1.0, f64::min);
             all.worth += odds / whole * against.iter().map(|e| chance(*e) + surer(*e)).sum::<f64>();
         }
         all.certainty *= certainty;
         for (member, odds) in members.iter().zip(&odds).skip(1) {
-            let Some(effect) = member.effect else { continue };
+            let effect = member.effect;
             let (own, other) = (evidence(&members[0], member), evidence(member, &members[0]));
             let found = (chance(own) + odds * chance(other)) / (1.0 + odds);
             match all.chances.iter_mut().find(|(known, _)| *known == effect) {
@@ -151,11 +159,13 @@ mod tests {
     #[test]
     fn a_twin_of_a_rival_leaves_a_doubt_unless_the_one_named_is_true() {
         let member = |effect, model| Member { effect, likeliest: model, models: vec![model] };
-        let members = vec![member(None, 0), member(Some("filter_lag"), 1), member(Some("rig_compliance"), 2)];
+        let members = vec![member("time_delay", 0), member("filter_lag", 1), member("rig_compliance", 2)];
         let twins = |truth: usize, other: usize| if truth > 0 && other > 0 { 0.0 } else { 1e3 };
         let found = told(&[members], &[7.0; 3], twins);
         assert!((found.certainty - 1.0 / 3.0).abs() < 1e-4, "{}", found.certainty);
         assert!(found.chances.iter().all(|(_, chance)| *chance > 0.999));
+        let left: Vec<&[&str]> = found.leaves.iter().map(|(_, left)| left.as_slice()).collect();
+        assert_eq!(left, [&[] as &[&str], &["rig_compliance"], &["filter_lag"]]);
         // The one named is told from both, each of the others from it.
         assert!((found.worth - 4.0 / 3.0 * (1.0 + SURER)).abs() < 1e-3, "{}", found.worth);
     }

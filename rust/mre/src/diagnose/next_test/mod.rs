@@ -48,6 +48,8 @@ pub struct Prospect {
     pub duration: f64,
     /// Chance that each effect in doubt is told apart or detected.
     pub chances: Vec<(&'static str, f64)>,
+    /// For each effect that may be true, first the one named: what would be left in doubt beside it.
+    pub leaves: Vec<(&'static str, Vec<&'static str>)>,
     /// Chance that nothing is in doubt after it, whatever is true of what is; `None`: nothing was.
     pub certainty: Option<f64>,
 }
@@ -55,7 +57,15 @@ pub struct Prospect {
 impl Prospect {
     fn new(kind: Kind, signal: &Signal, limits: &Limits, chances: Vec<(&'static str, f64)>) -> Self {
         let Signal { frequency, amplitude, .. } = *signal;
-        Self { kind, frequency, amplitude, duration: limits.duration, chances, certainty: None }
+        Self {
+            kind,
+            frequency,
+            amplitude,
+            duration: limits.duration,
+            chances,
+            leaves: Vec::new(),
+            certainty: None,
+        }
     }
 
     fn worth(&self) -> f64 {
@@ -140,7 +150,7 @@ fn to_tell(bench: &Bench, wider: &[Limits], hidden: &Hidden) -> Option<NextTest>
     let (limits, all) = best?;
     let prospect = |t: &Telling| {
         let prospect = Prospect::new(t.kind, t.test.signal(), limits, t.told.chances.clone());
-        Prospect { certainty: Some(t.told.certainty), ..prospect }
+        Prospect { certainty: Some(t.told.certainty), leaves: t.told.leaves.clone(), ..prospect }
     };
     let mut prospects: Vec<Prospect> = all.iter().map(prospect).collect();
     prospects[0].chances.extend(hidden.shown(bench, &all[0].test).unwrap_or_default());
