@@ -33,6 +33,8 @@ const EXACT: f64 = 3e-5;
 const LAWS_EACH: usize = 2;
 /// A law whose score is below this share of the best is not looked at further.
 const PROMISING: f64 = 0.1;
+/// What gives way in series is looked at where one of its laws has a smaller p-value.
+const SEEN: f64 = 1e-3;
 /// A law that takes off less than this share of the best, the model's tangents held, is not fitted jointly.
 const CLOSE: f64 = 0.4;
 
@@ -175,13 +177,16 @@ fn promising<'s>(null: &Null, scores: &'s [Score], most: usize) -> Vec<Held<'s>>
 }
 
 /// The plainest law of what gives way in series with a hysteretic base, unless one is there: behind it the base is
-/// another, of which its tangents as it is tell nothing.
+/// another, of which its tangents as it is tell little.
 fn in_series<'s>(null: &Null, scores: &'s [Score], kept: &[Held]) -> Option<Held<'s>> {
     let gives_way = |score: &Score| score.effect.flexibility(&score.start).is_some();
     if !null.assembly().base().is_hysteretic() || kept.iter().any(|held| gives_way(held.score)) {
         return None;
     }
-    let score = scores.iter().find(|score| gives_way(score))?;
+    let mut of_them = scores.iter().filter(|score| gives_way(score));
+    // Where no law of it is seen, it could not enter.
+    let seen = of_them.clone().any(|score| score.p_value < SEEN);
+    let score = of_them.next().filter(|_| seen)?;
     Some(Held { score, shape: score.start.clone(), gain: score.gain })
 }
 

@@ -44,7 +44,8 @@ impl<'a> Search<'_, 'a> {
     /// their form. `without` is the model without it.
     pub(super) fn patches(&self, named: &Named<'a>, place: usize, without: &Candidate<'a>) -> bool {
         let data = self.data(&named.noise);
-        if !any_strained(named, data, place..place + 1) {
+        // Where the base plainly misses, no law has the exact form.
+        if self.begun.noise.hidden() || !any_strained(named, data, place..place + 1) {
             return false;
         }
         let alone = beside_a_hum(named, data, self.given());
