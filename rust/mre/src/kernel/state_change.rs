@@ -153,6 +153,25 @@ mod tests {
     }
 
     #[test]
+    fn a_changed_state_stays_within_its_yield() {
+        let [time, x, v] = motion(60.0);
+        let slips = [
+            None,
+            Some(Slip::ByForce { depth: 0.97, width: 0.05, place: 0.5 }),
+            Some(Slip::ByForce { depth: 0.97, width: 0.8, place: -0.3 }),
+            Some(Slip::ByPlace { depth: 0.97, width: 0.2 }),
+        ];
+        for slip in slips {
+            for wear in [Wear::default(), Wear { strength: 0.5, stiffness: 0.5 }] {
+                for shape in [[1e-3, 0.5, 1.0], [20.0, 2.0, 5.0], [1e6, 1.5, 1.0]] {
+                    let found = trace(&time, &x, &v, shape, StateChange { slip, wear });
+                    assert!(found.iter().all(|w| w.abs() <= 1.0 + 1e-6), "{slip:?} {wear:?} {shape:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
     fn a_changed_state_follows_its_differential_equation() {
         let [time, x, v] = motion(400.0);
         let (rho, sigma, n) = (0.4, 0.7, 1.3);

@@ -114,6 +114,21 @@ fn free_play_removes_its_gap() {
 }
 
 #[test]
+fn a_gap_with_round_edges_is_crossed_smoothly() {
+    let stage = Stage::sine(2.0, 1.0, 2.0);
+    let law = law("backlash", "dead zone with round edges");
+    let seen = law.motion(&stage.scene(), &[0.3]).unwrap();
+    let (time, x) = (stage.recording.time(), stage.recording.displacement());
+    for i in 1..x.len() - 1 {
+        close(seen.displacement[i], x[i] - 0.3 * (x[i] / 0.3).tanh(), 1e-12);
+        let slope = (seen.displacement[i + 1] - seen.displacement[i - 1]) / (time[i + 1] - time[i - 1]);
+        assert!((seen.velocity[i] - slope).abs() < 2e-2, "{} instead of {slope}", seen.velocity[i]);
+    }
+    let closed = law.motion(&stage.scene(), &[0.0]).unwrap();
+    assert_eq!((closed.displacement.as_slice(), closed.velocity.as_slice()), (x, stage.recording.velocity()));
+}
+
+#[test]
 fn a_stiff_rig_takes_its_share_of_the_motion() {
     let stage = Stage::sine(2.0, 1.0, 3.0);
     let scene = stage.scene();

@@ -115,6 +115,23 @@ fn a_slipping_element_that_yields_at_once_stays_at_its_yield() {
 }
 
 #[test]
+fn a_stop_acts_at_each_end_from_its_own_gap_and_dissipates_by_its_depth() {
+    let stage = Stage::sine(3.0, 1.0, 2.0);
+    let (x, v) = (stage.recording.displacement(), stage.recording.velocity());
+    let uneven = column("end_stop", "both ends, uneven gaps", &stage.scene(), &[1.0, 2.0]);
+    let round = column("end_stop", "Hertz contact, uneven gaps", &stage.scene(), &[1.0, 2.0]);
+    let damped = law("end_stop", "Hertz contact with damping").columns(&stage.scene(), &[1.5]);
+    for i in 0..x.len() {
+        let (positive, negative) = ((x[i] - 1.0).max(0.0), (-x[i] - 2.0).max(0.0));
+        close(uneven[i], positive - negative, 1e-12);
+        close(round[i], positive.powf(1.5) - negative.powf(1.5), 1e-12);
+        let depth = (x[i].abs() - 1.5).max(0.0).powf(1.5);
+        close(damped[0][i], depth * x[i].signum(), 1e-12);
+        close(damped[1][i], depth * v[i], 1e-12);
+    }
+}
+
+#[test]
 fn an_elastic_plastic_element_has_its_loop_area() {
     let (amplitude, r) = (2.0, 0.5);
     let stage = Stage::sine(amplitude, 1.0, 3.0);
