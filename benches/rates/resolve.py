@@ -27,8 +27,8 @@ class Resolved:
     """Kind of the proposed test."""
     expected: float = 0.0
     """Chance, as the tool gives it, that one effect alone is left."""
-    left: frozenset[str] = frozenset()
-    """What the tool expects to be left in doubt beside the truth."""
+    left: frozenset[str] | None = None
+    """What the tool expects to be left in doubt beside the truth; None: it expects nothing of it."""
 
     @property
     def doubted(self) -> bool:
@@ -44,7 +44,7 @@ class Resolved:
     def as_told(self) -> bool:
         """The truth is left, and no more beside it than the tool expects."""
         truth = frozenset(self.trial.case.effects)
-        return truth <= self.after <= truth | self.left
+        return truth <= self.after <= truth | (self.left or frozenset())
 
 
 def run(trial: Trial) -> Resolved:
@@ -56,7 +56,8 @@ def run(trial: Trial) -> Resolved:
     if proposal is None or len(before) < 2 or not told:
         return Resolved(trial, before, told, before)
     after = _said(_diagnosed(trial, (proposed(proposal, current=1.0),)))
-    left = frozenset(one for truth in trial.case.effects for one in proposal["leaves"].get(truth, ()))
+    (truth,) = trial.case.effects
+    left = frozenset(proposal["leaves"][truth]) if truth in proposal["leaves"] else None
     kind, expected = str(proposal["excitation"]), float(proposal["certainty"])
     return Resolved(trial, before, told, after, kind, expected, left)
 

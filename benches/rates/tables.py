@@ -111,7 +111,7 @@ def resolved(found: Sequence[Resolved]) -> str:
     of_all = Rate(sum(r.right for r in tested), len(doubted))
     hopeless = [r for r in doubted if not r.told]
     sure = [r for r in tested if r.expected >= SURE]
-    alone = [r for r in tested if not r.left]
+    alone = [r for r in tested if r.left == frozenset()]
     text = (
         f"Of {len(found)} campaigns {len(doubted)} left several, the truth among them."
         f" In {len(hopeless)} the tool says that no test within the limits would tell: {_listed(hopeless)}."

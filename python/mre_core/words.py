@@ -227,7 +227,7 @@ def next_test(best: Mapping[str, Any], separates: Sequence[str], limits: Mapping
         "" if certainty is None else f"; the chance that one effect alone is left is {100 * certainty:.0f} %"
     )
     twins = [
-        f"if {truth} is true, it would not be told from {listed(others)}"
+        f"if {truth} is true, {listed(others)} would probably stay in doubt beside it"
         for truth, others in best["leaves"].items()
         if others
     ]

@@ -84,6 +84,8 @@ impl Assembly<'_> {
                     continue;
                 }
                 seen.push(Cow::Borrowed(self.unaltered(*r)));
+            } else if motion.is_none() && current.is_none() {
+                seen.push(Cow::Owned(self.unaltered(*r).clone().with_state_change(state)));
             } else {
                 let motion = motion.unwrap_or_else(|| Motion {
                     displacement: scene.displacement.to_vec(),

@@ -179,8 +179,9 @@ fn promising<'s>(null: &Null, scores: &'s [Score], most: usize) -> Vec<Held<'s>>
 /// The plainest law of what gives way in series with a hysteretic base, unless one is there: behind it the base is
 /// another, of which its tangents as it is tell little.
 fn in_series<'s>(null: &Null, scores: &'s [Score], kept: &[Held]) -> Option<Held<'s>> {
-    let gives_way = |score: &Score| score.effect.flexibility(&score.start).is_some();
-    if !null.assembly().base().is_hysteretic() || kept.iter().any(|held| gives_way(held.score)) {
+    let gives_way = |score: &Score| score.effect.flexibility(&score.start).is_some_and(|f| f.size > 0.0);
+    let base = null.assembly().base();
+    if base.groups().is_empty() || !base.is_hysteretic() || kept.iter().any(|held| gives_way(held.score)) {
         return None;
     }
     let mut of_them = scores.iter().filter(|score| gives_way(score));

@@ -40,9 +40,14 @@ impl<'a> Search<'_, 'a> {
         keeping(named, self.data(&named.noise), |other| other != place)
     }
 
-    /// True where the effect at a place fits only where its law ends, and is the lesser one: beside others it patches
-    /// their form. `without` is the model without it.
-    pub(super) fn patches(&self, named: &Named<'a>, place: usize, without: &Candidate<'a>) -> bool {
+    /// True where the effect at a place fits only where its law ends, and the others explain more than half without it:
+    /// it patches their form. `without` makes the model without it.
+    pub(super) fn patches(
+        &self,
+        named: &Named<'a>,
+        place: usize,
+        without: impl FnOnce() -> Candidate<'a>,
+    ) -> bool {
         let data = self.data(&named.noise);
         // Where the base plainly misses, no law has the exact form.
         if self.begun.noise.hidden() || !any_strained(named, data, place..place + 1) {
@@ -50,7 +55,7 @@ impl<'a> Search<'_, 'a> {
         }
         let alone = beside_a_hum(named, data, self.given());
         let taken_off = |c: &Candidate| alone.fitted.left - c.fitted.left;
-        taken_off(without) > 0.5 * taken_off(&named.itself())
+        taken_off(&without()) > 0.5 * taken_off(&named.itself())
     }
 
     /// Remove effects that the others make unnecessary, or that only patch their form.
@@ -63,7 +68,7 @@ impl<'a> Search<'_, 'a> {
                 let without = self.drop(&here, place);
                 let needless = without.criterion() < now.criterion()
                     || self.idle(&now, &without, &here.noise)
-                    || self.patches(&here, place, &without);
+                    || self.patches(&here, place, || without.clone());
                 (without, needless)
             });
             let Some((without, needless)) = tried else { break };

@@ -96,7 +96,8 @@ impl<'a> Search<'_, 'a> {
         let mut refused = None;
         for next in self.in_turn(here) {
             let Some(best) = self.further(here, next) else { continue };
-            if self.worth(here, next, &best, by_first) == Some(true) && !self.patches_the_others(&best) {
+            if self.worth(here, next, &best, by_first) == Some(true) && !self.patches_the_others(&best, next)
+            {
                 return Some(best);
             }
             refused = moves(next).then_some(best);
@@ -104,9 +105,14 @@ impl<'a> Search<'_, 'a> {
         self.two_worth_adding(here, &refused?, by_first)
     }
 
-    fn patches_the_others(&self, named: &Named<'a>) -> bool {
-        let last = named.assembly.effects().len() - 1;
-        self.patches(named, last, &self.drop(named, last))
+    /// True where the effect of a candidate, under its best law, only patches the form of the others.
+    fn patches_the_others(&self, named: &Named<'a>, next: &Candidate<'a>) -> bool {
+        let effects = named.assembly.effects();
+        let place = effects.iter().position(|effect| Some(effect.about().effect) == next.added());
+        place.is_some_and(|place| {
+            let patches = || self.patches(named, place, || self.drop(named, place));
+            self.monitor.stage(Stage::Needless, patches) == Some(true)
+        })
     }
 
     /// A model with one more effect under its best law, if that is significant.

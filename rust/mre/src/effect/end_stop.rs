@@ -4,8 +4,8 @@
 //! |---|---|---|---|
 //! | `k_c` | stiffness of the stop | N/mm, or N/mm^1.5 for Hertz contact | >= 0 |
 //! | `c_c` | damping of the contact, over the power 1.5 of its depth | N s/mm^2.5 | >= 0 |
-//! | g | gap, at both ends or the positive one | mm | 30 % to 99.5 % of the largest stroke |
-//! | `g_n` | gap at the negative end, where it is another | mm | 30 % to 99.5 % of the largest stroke |
+//! | g | gap; where the ends differ, of the positive one | mm | 30 % to 99.5 % of the largest stroke |
+//! | `g_n` | gap of the negative end, where it is another | mm | 30 % to 99.5 % of the largest stroke |
 //!
 //! Reference: Hunt and Crossley, J. Appl. Mech. 42 (1975) 440.
 //! Known limit: with few samples past the gap it is a stiffening spring.

@@ -3,7 +3,7 @@
 //!
 //! An effect has one or more laws (textbook forms of the same physics). A law acts in one place: it adds
 //! columns to the force, scales the terms of the base model by a state of the history, changes what
-//! the base model sees (motion, current), or changes what is measured. Everything else (simulation, joint
+//! the base model sees (motion, current) or the law of its hysteretic state, or changes what is measured. Everything else (simulation, joint
 //! fits, diagnosis) follows from that.
 
 mod adiabatic;

@@ -1,12 +1,13 @@
-//! Cyclic degradation of a hysteretic base model itself: its state yields earlier, or gets softer, with the energy that
-//! it has dissipated.
+//! Cyclic degradation of a hysteretic base model itself: its state yields earlier, or gets softer, with the energy put
+//! into it.
 //!
 //! | symbol | meaning | unit | range |
 //! |---|---|---|---|
 //! | `d_nu` | loss of strength: growth of nu | 1/mm | 0 to twenty over the longest path |
 //! | `d_eta` | loss of stiffness: growth of eta | 1/mm | 0 to twenty over the longest path |
 //!
-//! Both grow with e, the integral of `w v`: the energy that the hysteretic force dissipated over the force at yield.
+//! Both grow with e, the integral of `w v`, not below zero: the energy put into the hysteretic element over its force at
+//! yield.
 //! Reference: Baber and Wen, J. Eng. Mech. Div. 107 (1981) 1069.
 //! Known limit: only for a hysteretic base model; over a few equal cycles it cannot be told from thermal softening.
 

@@ -44,6 +44,12 @@ impl Interval {
         ]
     }
 
+    /// Distance in it, mm.
+    pub(super) fn far(&self) -> f64 {
+        let [begin, middle, end] = self.velocity;
+        self.step * (begin + 4.0 * middle + end) / 6.0
+    }
+
     /// Velocity on the parabola through the three.
     #[inline(always)]
     fn at(&self, share: f64) -> f64 {

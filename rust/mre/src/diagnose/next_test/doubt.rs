@@ -47,7 +47,7 @@ pub(super) struct Member {
 pub(super) struct Told {
     /// Chance that each is told from the one named, whichever of the two is true.
     pub(super) chances: Vec<(&'static str, f64)>,
-    /// For each that may be true, first the one named: what would be left in doubt beside it.
+    /// For each that may be true, what would probably be left in doubt beside it.
     pub(super) leaves: Vec<(&'static str, Vec<&'static str>)>,
     /// Chance that nothing is in doubt any more.
     pub(super) certainty: f64,
@@ -114,7 +114,14 @@ pub(super) fn told(places: &[Vec<Member>], criteria: &[f64], against: impl Fn(us
             let others = || members.iter().filter(|other| other.likeliest != truth.likeliest);
             let against: Vec<f64> = others().map(|other| evidence(truth, other)).collect();
             let doubted = others().zip(&against).filter(|(_, e)| chance(**e) < EVEN);
-            all.leaves.push((truth.effect, doubted.map(|(other, _)| other.effect).collect()));
+            let doubted = doubted.map(|(other, _)| other.effect);
+            match all.leaves.iter_mut().find(|(known, _)| *known == truth.effect) {
+                Some((_, left)) => {
+                    let more: Vec<&str> = doubted.filter(|id| !left.contains(id)).collect();
+                    left.extend(more);
+                }
+                None => all.leaves.push((truth.effect, doubted.collect())),
+            }
             certainty += odds / whole * against.iter().map(|e| chance(*e)).fold(1.0, f64::min);
             all.worth += odds / whole * against.iter().map(|e| chance(*e) + surer(*e)).sum::<f64>();
         }

@@ -48,7 +48,7 @@ pub struct Prospect {
     pub duration: f64,
     /// Chance that each effect in doubt is told apart or detected.
     pub chances: Vec<(&'static str, f64)>,
-    /// For each effect that may be true, first the one named: what would be left in doubt beside it.
+    /// For each effect that may be true, what would probably be left in doubt beside it.
     pub leaves: Vec<(&'static str, Vec<&'static str>)>,
     /// Chance that nothing is in doubt after it, whatever is true of what is; `None`: nothing was.
     pub certainty: Option<f64>,
