@@ -30,6 +30,12 @@ struct Otherwise {
     state: Option<StateChange>,
 }
 
+impl Otherwise {
+    fn is_nothing(&self) -> bool {
+        self.motion.is_none() && self.current.is_none() && self.state.is_none()
+    }
+}
+
 impl BaseColumns {
     /// Columns of so many samples; of those that also have what lies between them that is kept apart.
     fn thin(&mut self, samples: usize) {
@@ -76,8 +82,10 @@ impl Assembly<'_> {
             let base_shapes = &shapes[..self.base_shapes()];
             let recording = &self.campaign.recordings()[*r];
             let scene = self.scene(*r);
-            let Otherwise { motion, current, state } = self.otherwise(&scene, &self.shape_of(shapes));
-            if motion.is_none() && current.is_none() && state.is_none() {
+            let otherwise = self.otherwise(&scene, &self.shape_of(shapes));
+            let as_it_is = otherwise.is_nothing();
+            let Otherwise { motion, current, state } = otherwise;
+            if as_it_is {
                 let known = at_hand.filter(|known| known.shapes == base_shapes);
                 if let Some(columns) = known.and_then(|known| known.columns.get(*r)) {
                     found.push(Some(columns.clone()));
@@ -85,14 +93,14 @@ impl Assembly<'_> {
                 }
                 seen.push(Cow::Borrowed(self.unaltered(*r)));
             } else if motion.is_none() && current.is_none() {
-                seen.push(Cow::Owned(self.unaltered(*r).clone().with_state_change(state)));
+                seen.push(Cow::Owned(self.unaltered(*r).clone().with_state_changed(state)));
             } else {
                 let motion = motion.unwrap_or_else(|| Motion {
                     displacement: scene.displacement.to_vec(),
                     velocity: scene.velocity.to_vec(),
                 });
                 let altered = recording.seen_with(motion.displacement, motion.velocity, current);
-                seen.push(Cow::Owned(altered.with_state_change(state)));
+                seen.push(Cow::Owned(altered.with_state_changed(state)));
             }
             found.push(None);
             wanted.push((*r, base_shapes));
@@ -126,8 +134,7 @@ impl Assembly<'_> {
 
     /// True where effects change the motion or the current that the base sees, or how its state follows them.
     pub(super) fn sees_otherwise(&self, shapes: &[f64]) -> bool {
-        let Otherwise { motion, current, state } = self.otherwise(&self.scene(0), &self.shape_of(shapes));
-        motion.is_some() || current.is_some() || state.is_some()
+        !self.otherwise(&self.scene(0), &self.shape_of(shapes)).is_nothing()
     }
 
     fn otherwise(&self, scene: &Scene, shape_of: &[&[f64]]) -> Otherwise {
@@ -140,15 +147,10 @@ impl Assembly<'_> {
             }
             current = effect.current(&scene, shape).or(current);
             motion = effect.motion(&scene, shape).or(so_far);
-            state = also(state, effect.state_change(shape));
+            state = state.into_iter().chain(effect.state_change(shape)).reduce(StateChange::and);
         }
         Otherwise { motion, current, state }
     }
-}
-
-/// Changes of the law of a state one after the other.
-pub(super) fn also(before: Option<StateChange>, more: Option<StateChange>) -> Option<StateChange> {
-    before.into_iter().chain(more).reduce(StateChange::and)
 }
 
 /// Columns of a model that is fitted in groups.

@@ -133,7 +133,7 @@ impl Assembly<'_> {
             found.given = Some(force);
         }
         self.effect_columns(r, &scene, &shape_of, between, &mut found);
-        if let Some(flexibility) = self.flexibility(shapes).filter(|f| f.size > 0.0) {
+        if let Some(flexibility) = self.flexibility(shapes).filter(|f| f.gives_way()) {
             let whole = &self.whole[r];
             let rig = InSeries::new(&self.campaign.recordings()[r], whole, whole, flexibility);
             rig.pass(whole, &mut found);

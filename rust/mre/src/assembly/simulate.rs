@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use super::base_columns::also;
 use super::campaign::Campaign;
 use super::in_series::InSeries;
 use crate::device::Device;
@@ -130,8 +129,7 @@ fn pass(source: Source, additions: &[Addition], recording: &Recording, scene: &S
             );
             seen = seen.seen_with(x, v, current);
         }
-        let state = also(seen.state_change(), effect.state_change(shape));
-        seen = seen.with_state_change(state);
+        seen = seen.with_state_changed(effect.state_change(shape));
     }
     let mut force = vec![0.0; recording.len()];
     for (part, column) in source.parts(&seen)? {

@@ -19,7 +19,7 @@ use super::settings::Settings;
 use super::slow::temper;
 use super::starts::{calm, without_initial_state};
 use crate::assembly::{Assembly, Campaign};
-use crate::effect::{CATALOGUE, Effect};
+use crate::effect::{CATALOGUE, Effect, Flexibility};
 
 /// The best of them are also fitted from other shapes of the base.
 const UNBENT: usize = 2;
@@ -179,7 +179,8 @@ fn promising<'s>(null: &Null, scores: &'s [Score], most: usize) -> Vec<Held<'s>>
 /// The plainest law of what gives way in series with a hysteretic base, unless one is there: behind it the base is
 /// another, of which its tangents as it is tell little.
 fn in_series<'s>(null: &Null, scores: &'s [Score], kept: &[Held]) -> Option<Held<'s>> {
-    let gives_way = |score: &Score| score.effect.flexibility(&score.start).is_some_and(|f| f.size > 0.0);
+    let gives_way =
+        |score: &Score| score.effect.flexibility(&score.start).is_some_and(Flexibility::gives_way);
     let base = null.assembly().base();
     if base.groups().is_empty() || !base.is_hysteretic() || kept.iter().any(|held| gives_way(held.score)) {
         return None;

@@ -6,7 +6,7 @@ use super::begin::starts;
 use super::candidates::Candidate;
 use super::least_squares::{Data, Fitted, refine, refine_at_most};
 use crate::assembly::Assembly;
-use crate::effect::Effect;
+use crate::effect::{Effect, Flexibility};
 
 /// Fits from several starts that are kept after so many steps; the best of the last is fitted to the end.
 const STAGES: [(usize, usize); 3] = [(4, 1), (2, 2), (1, 3)];
@@ -30,7 +30,7 @@ pub(super) fn joint<'a>(
     let wider = assembly.with(effects);
     let known = assembly.physical(unit);
     let unit = wider.unit(&[known.as_slice(), start].concat());
-    if effect.flexibility(start).is_none_or(|flexibility| flexibility.size == 0.0) {
+    if !effect.flexibility(start).is_some_and(Flexibility::gives_way) {
         return fit(wider, data, &unit);
     }
     // The tangents of the model tell little of a rig: behind a soft one the device is another.
@@ -51,16 +51,12 @@ fn of_the_last(assembly: &Assembly, before: &[f64]) -> Vec<Vec<f64>> {
 /// Other shapes of a hysteretic base behind the softest start of a last effect that gives way: where the two are in
 /// series, a base of its own takes their yield for its own.
 fn behind_the_last(assembly: &Assembly, before: &[f64]) -> Vec<Vec<f64>> {
-    let size = |start: &[f64]| {
-        let effect = assembly.effects().last()?;
-        Some(effect.flexibility(start)?.size)
+    let Some(effect) = assembly.effects().last().filter(|_| assembly.base().is_hysteretic()) else {
+        return Vec::new();
     };
-    let own = assembly.effects().last().map(|effect| effect.starts(assembly.campaign().sizes()));
-    let softest = own
-        .unwrap_or_default()
-        .into_iter()
-        .max_by(|a, b| size(a).unwrap_or(0.0).total_cmp(&size(b).unwrap_or(0.0)));
-    let Some(softest) = softest.filter(|_| assembly.base().is_hysteretic()) else { return Vec::new() };
+    let size = |start: &[f64]| effect.flexibility(start).map_or(0.0, |f| f.size);
+    let own = effect.starts(assembly.campaign().sizes()).into_iter();
+    let Some(softest) = own.max_by(|a, b| size(a).total_cmp(&size(b))) else { return Vec::new() };
     let unit = assembly.unit(&[before, &softest].concat());
     let others = starts(assembly.base()).into_iter().filter(|start| !start.is_empty());
     others.map(|start| [&start, &unit[start.len()..]].concat()).collect()

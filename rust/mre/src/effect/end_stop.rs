@@ -122,11 +122,13 @@ impl Effect for EndStop {
     }
 
     fn columns(&self, scene: &Scene, shape: &[f64]) -> Vec<Vec<f64>> {
-        let power = if self.is_round() { 1.5 } else { 1.0 };
-        let depth = each(scene.displacement, |x| self.depth(x, shape));
-        let mut found = vec![each(&depth, |d| d.abs().powf(power).copysign(d))];
+        let spring = each(scene.displacement, |x| {
+            let depth = self.depth(x, shape);
+            if self.is_round() { depth.abs().powf(1.5).copysign(depth) } else { depth }
+        });
+        let mut found = vec![spring];
         if *self == Self::HuntCrossley {
-            found.push(depth.iter().zip(scene.velocity).map(|(d, v)| d.abs().powf(power) * v).collect());
+            found.push(found[0].iter().zip(scene.velocity).map(|(spring, v)| spring.abs() * v).collect());
         }
         found
     }

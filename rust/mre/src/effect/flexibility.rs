@@ -10,6 +10,11 @@ pub struct Flexibility {
 }
 
 impl Flexibility {
+    /// True where it takes anything from the motion.
+    pub(crate) fn gives_way(self) -> bool {
+        self.size > 0.0
+    }
+
     /// Nearly that of two in series.
     #[must_use]
     pub fn and(self, other: Self) -> Self {

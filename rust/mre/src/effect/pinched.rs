@@ -16,7 +16,9 @@
 //! Known limit: without a slip it is hysteresis.
 
 use super::hysteresis::bouc_wen;
-use super::{About, Effect, Scene, Sizes, ideal_above, ideal_below, order_within, orders, positive, within};
+use super::{
+    About, Effect, Scene, Sizes, Slip, ideal_above, ideal_below, order_within, orders, positive, within,
+};
 use crate::kernel::climb::Climb;
 use crate::parameter::Parameter;
 
@@ -37,10 +39,8 @@ pub(super) enum Pinched {
 /// State over its yield value along the displacement.
 fn slipping(scene: &Scene, shape: &[f64]) -> Vec<f64> {
     let (rho, depth, width, place) = (shape[0], shape[1], shape[2], shape[3]);
-    let climb = Climb::new(|u| {
-        let bare = 1.0 - u * u.abs().powf(SHARPNESS - 1.0);
-        bare * (1.0 - depth * (-((u - place) / width).powi(2)).exp())
-    });
+    let slip = Slip::ByForce { depth, width, place };
+    let climb = Climb::new(|u| (1.0 - u * u.abs().powf(SHARPNESS - 1.0)) * slip.at(u));
     climb.states(rho, scene.displacement)
 }
 

@@ -64,7 +64,7 @@ pub enum Slip {
 
 impl Slip {
     /// Share of the rate at a state in the direction of motion.
-    fn at(self, u: f64) -> f64 {
+    pub(crate) fn at(self, u: f64) -> f64 {
         match self {
             Self::ByForce { depth, width, place } => 1.0 - depth * (-((u - place) / width).powi(2)).exp(),
             Self::ByPlace { .. } => 1.0,

@@ -72,43 +72,36 @@ impl Term for BoucWen {
     }
 
     fn column(&self, recording: &Recording, shape: &[f64], out: &mut [f64]) {
-        let (time, velocity) = (recording.time(), recording.velocity());
-        let shape = [shape[0], shape[1], shape[2]];
-        match recording.state_change() {
-            Some(change) => {
-                out.copy_from_slice(&state_change::trace(
-                    time,
-                    recording.displacement(),
-                    velocity,
-                    shape,
-                    change,
-                ));
-            }
-            None => hysteretic::trace(time, velocity, shape, out),
+        if let Some(trace) = changed(recording, shape) {
+            out.copy_from_slice(&trace);
+        } else {
+            let shape = [shape[0], shape[1], shape[2]];
+            hysteretic::trace(recording.time(), recording.velocity(), shape, out);
         }
     }
 
     fn columns(&self, of: &[(&Recording, &[f64])]) -> Vec<Vec<f64>> {
-        if of.iter().any(|(recording, _)| recording.state_change().is_some()) {
-            return of
-                .par_iter()
-                .map(|(recording, shape)| {
-                    let mut out = vec![0.0; recording.len()];
-                    self.column(recording, shape, &mut out);
-                    out
-                })
-                .collect();
-        }
+        let changed: Vec<Option<Vec<f64>>> =
+            of.par_iter().map(|(recording, shape)| changed(recording, shape)).collect();
         let motions: Vec<Motion> = of
             .iter()
+            .filter(|(recording, _)| recording.state_change().is_none())
             .map(|(recording, shape)| Motion {
                 time: recording.time(),
                 velocity: recording.velocity(),
                 shape: [shape[0], shape[1], shape[2]],
             })
             .collect();
-        traces(&motions)
+        let mut plain = traces(&motions).into_iter();
+        changed.into_iter().map(|trace| trace.or_else(|| plain.next()).unwrap_or_default()).collect()
     }
+}
+
+/// The hysteretic variable under another law of its state, where the recording has one.
+fn changed(recording: &Recording, shape: &[f64]) -> Option<Vec<f64>> {
+    let change = recording.state_change()?;
+    let (time, x, velocity) = (recording.time(), recording.displacement(), recording.velocity());
+    Some(state_change::trace(time, x, velocity, [shape[0], shape[1], shape[2]], change))
 }
 
 /// The same model in the notation of eq. 1 and 2, with the redundant A fixed at 1:

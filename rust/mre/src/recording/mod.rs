@@ -220,8 +220,9 @@ impl Recording {
         seen
     }
 
-    /// The same recording of a device whose hysteretic state has another law.
-    pub(crate) fn with_state_change(self, state_change: Option<StateChange>) -> Self {
+    /// The same recording of a device the law of whose hysteretic state changes further.
+    pub(crate) fn with_state_changed(self, by: Option<StateChange>) -> Self {
+        let state_change = self.state_change.into_iter().chain(by).reduce(StateChange::and);
         Self { state_change, ..self }
     }
 
