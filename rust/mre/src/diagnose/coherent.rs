@@ -1,45 +1,78 @@
 //! A residual that follows the motion of its own recording is a mismatch: an autoregression of a recording would
 //! take it for a narrow band of noise, and whiten the mismatch away.
 
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use super::autoregression::{Choice, Products};
+use super::distribution::{CAUTION, chi_square_tail};
+use super::hum::without_hum;
 use crate::assembly::Assembly;
 use crate::kernel::filter::dot;
+use crate::recording::Recording;
 
-/// A residual follows the motion where this removes more than this share of its squares.
-const MOST: f64 = 0.5;
-/// Cycles in each half of a recording: over fewer, slow noise follows the motion too.
-const CYCLES: usize = 5;
+/// A residual follows the motion where that is at least such a share of its squares,
+const LEAST: f64 = 0.2;
+/// and no autoregression predicts as much but by such a chance.
+const BY_CHANCE: f64 = 1e-6;
+/// Most stretches of a recording, in each of which it may follow the motion in another way.
+const STRETCHES: usize = 8;
+/// Cycles in each stretch: over fewer, slow noise follows the motion too.
+const CYCLES: usize = 2;
 /// Share of its range by which a motion leaves its middle to count.
 const ASIDE: f64 = 0.1;
 
 /// Residuals in N of the scored samples, those that follow the motion less what follows it.
 pub(super) fn without_the_coherent(assembly: &Assembly, residuals: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
-    let recordings = assembly.campaign().recordings().iter();
+    let recordings = assembly.campaign().recordings();
     residuals
-        .into_iter()
+        .into_par_iter()
         .zip(recordings)
         .map(|(residual, recording)| {
             let of = |series: &[f64]| series[recording.scored()].to_vec();
-            let (x, v) = (of(recording.displacement()), of(recording.velocity()));
-            let middle = residual.len() / 2;
-            let halves = [0..middle, middle..residual.len()];
-            let mut left = Vec::with_capacity(residual.len());
-            let (mut before, mut after) = (0.0, 0.0);
-            for half in halves {
-                let [e, x, v] = [&residual, &x, &v].map(|series| about_its_mean(&series[half.clone()]));
-                if cycles(&x) < CYCLES {
-                    return residual;
-                }
-                let rest = beside(&beside(&e, &x), &beside(&v, &x));
-                before += dot(&e, &e);
-                after += dot(&rest, &rest);
-                let mean = residual[half.clone()].iter().sum::<f64>() / half.len() as f64;
-                left.extend(rest.into_iter().map(|e| e + mean));
-            }
-            if after < (1.0 - MOST) * before { left } else { residual }
+            let motion = [of(recording.displacement()), of(recording.velocity())];
+            beside_the_motion(&residual, &motion, recording).unwrap_or(residual)
         })
         .collect()
 }
 
+/// A residual that follows the motion, less what follows it.
+fn beside_the_motion(residual: &[f64], motion: &[Vec<f64>; 2], recording: &Recording) -> Option<Vec<f64>> {
+    let most = (1..=STRETCHES).rev().find(|count| {
+        stretches(residual.len(), *count).all(|s| cycles(&about_its_mean(&motion[0][s])) >= CYCLES)
+    })?;
+    let (left, share) = without(residual, motion, most);
+    if 1.0 - share < LEAST {
+        return None;
+    }
+    let step = 1.0 / recording.sampling_rate();
+    let unpredicted =
+        |series: &[f64]| Choice::best(&[&Products::of(&without_hum(series, step), step)]).criterion;
+    let gain = unpredicted(residual) - unpredicted(&left);
+    (chi_square_tail(gain / CAUTION, 2 * most) < BY_CHANCE).then_some(left)
+}
+
+/// A residual less what follows the motion in each of some stretches, and the share of its squares that stays.
+fn without(residual: &[f64], motion: &[Vec<f64>; 2], count: usize) -> (Vec<f64>, f64) {
+    let mut left = Vec::with_capacity(residual.len());
+    let (mut before, mut after) = (0.0, 0.0);
+    for stretch in stretches(residual.len(), count) {
+        let own = &residual[stretch.clone()];
+        let [e, x, v] = [own, &motion[0][stretch.clone()], &motion[1][stretch]].map(about_its_mean);
+        let rest = beside(&beside(&e, &x), &beside(&v, &x));
+        before += dot(&e, &e);
+        after += dot(&rest, &rest);
+        let mean = own.iter().sum::<f64>() / own.len() as f64;
+        left.extend(rest.into_iter().map(|e| e + mean));
+    }
+    (left, after / before.max(f64::MIN_POSITIVE))
+}
+
+/// Equal parts of so many samples.
+fn stretches(samples: usize, count: usize) -> impl Iterator<Item = Range<usize>> {
+    (0..count).map(move |k| samples * k / count..samples * (k + 1) / count)
+}
 fn about_its_mean(series: &[f64]) -> Vec<f64> {
     let mean = series.iter().sum::<f64>() / series.len() as f64;
     series.iter().map(|value| value - mean).collect()

@@ -56,9 +56,6 @@ pub fn run<'a>(
     let alone = Null::new(&begun.assembly, data, &base_fit.unit);
     let places = monitor
         .stage(Stage::Location, || alone.as_ref().map_or_else(Vec::new, |n| locate(n, settings.false_alarm)));
-    // Where effects leave no more, there is nothing to describe.
-    let whole = verdict == Verdict::PartlyExplained && !evidence.approximate();
-    let unknown = if whole { None } else { describe(verdict, alone.as_ref(), &named, data) };
     let absorbed = monitor.stage(Stage::Identifiability, || absorbed(&named, campaign, settings.false_alarm));
     let absorbed = absorbed.unwrap_or_default();
     let mut nearest = Vec::new();
@@ -80,6 +77,10 @@ pub fn run<'a>(
     let mut doubt = Doubt { rivals: Vec::new(), laws: Vec::new(), hidden };
     let after = proofs.as_ref().map(|p| &p.1);
     let effects = effects(&search, &named, judged, after, evidence.left, &mut doubt);
+    let verdict = evidence.beside_rivals(verdict, effects.iter().any(|effect| !effect.rivals.is_empty()));
+    // Where effects leave no more, there is nothing to describe.
+    let whole = verdict == Verdict::PartlyExplained && !evidence.approximate();
+    let unknown = if whole { None } else { describe(verdict, alone.as_ref(), &named, data) };
     let next_test =
         monitor.stage(Stage::NextTest, || propose(&named, base, &doubt, &rows, settings, monitor));
     Some(Diagnosis {

@@ -159,6 +159,15 @@ impl Evidence {
         }
     }
 
+    /// The verdict, once it is known whether effects of another kind may stand in the place of one that is named: a
+    /// form that is not exact is a form of that effect only where they may not.
+    pub(super) fn beside_rivals(&self, verdict: Verdict, rivals: bool) -> Verdict {
+        match verdict {
+            Verdict::MissingPhysics if rivals && self.approximate() => Verdict::PartlyExplained,
+            told => told,
+        }
+    }
+
     /// True where what is left would be seen beside the noise, however much was explained.
     fn plainly_inexact(&self) -> bool {
         self.share > SEEN[0] && self.lack_of_fit > SEEN[1] * self.noise
