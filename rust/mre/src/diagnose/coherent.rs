@@ -12,14 +12,17 @@ use crate::assembly::Assembly;
 use crate::kernel::filter::dot;
 use crate::recording::Recording;
 
-/// A residual follows the motion where that is at least such a share of its squares,
-const LEAST: f64 = 0.2;
-/// and no autoregression predicts as much but by such a chance.
-const BY_CHANCE: f64 = 1e-6;
-/// Most stretches of a recording, in each of which it may follow the motion in another way.
+/// Most stretches of a recording, in each of which its residual may follow the motion in another way.
 const STRETCHES: usize = 8;
-/// Cycles in each stretch: over fewer, slow noise follows the motion too.
+/// It does where that is more than such a share of its squares, with so many cycles in each of two stretches or more:
+/// over fewer, slow noise follows the motion too.
+const MOST: f64 = 0.5;
+const MANY_CYCLES: usize = 5;
+/// Or a smaller share over fewer cycles, where an autoregression predicts the rest so much better as chance would let it
+/// this seldom.
+const SOME: f64 = 0.2;
 const CYCLES: usize = 2;
+const BY_CHANCE: f64 = 1e-6;
 /// Share of its range by which a motion leaves its middle to count.
 const ASIDE: f64 = 0.1;
 
@@ -39,11 +42,18 @@ pub(super) fn without_the_coherent(assembly: &Assembly, residuals: Vec<Vec<f64>>
 
 /// A residual that follows the motion, less what follows it.
 fn beside_the_motion(residual: &[f64], motion: &[Vec<f64>; 2], recording: &Recording) -> Option<Vec<f64>> {
-    let most = (1..=STRETCHES).rev().find(|count| {
-        stretches(residual.len(), *count).all(|s| cycles(&about_its_mean(&motion[0][s])) >= CYCLES)
-    })?;
+    let each_has = |count: usize, least: usize| {
+        stretches(residual.len(), count).all(|s| cycles(&about_its_mean(&motion[0][s])) >= least)
+    };
+    if let Some(long) = (2..=STRETCHES).rev().find(|count| each_has(*count, MANY_CYCLES)) {
+        let (left, share) = without(residual, motion, long);
+        if share < 1.0 - MOST {
+            return Some(left);
+        }
+    }
+    let most = (1..=STRETCHES).rev().find(|count| each_has(*count, CYCLES))?;
     let (left, share) = without(residual, motion, most);
-    if 1.0 - share < LEAST {
+    if share > 1.0 - SOME {
         return None;
     }
     let step = 1.0 / recording.sampling_rate();

@@ -12,8 +12,6 @@ const TRUSTED: [f64; 2] = [0.3, 0.03];
 const FORM: [f64; 2] = [0.02, 0.0025];
 /// So is a smaller one of a single effect that is plainly seen: above this share, and more than this share of the noise.
 const SEEN: [f64; 2] = [0.005, 0.1];
-/// The same where the base plainly misses: a real device has no exact form.
-const PLAIN_FORM: f64 = 0.075;
 
 /// Tests of any mismatch.
 const OF_ANY: f64 = 5.0;
@@ -143,8 +141,7 @@ impl Evidence {
     /// The verdict on so many effects that follow the motion, and on a hum.
     pub(super) fn verdict(&self, effects: usize, hum: bool) -> Verdict {
         let several = usize::from(effects > 1);
-        let (trusted, form) =
-            if self.plain { (TRUSTED[0], PLAIN_FORM) } else { (TRUSTED[several], FORM[several]) };
+        let trusted = TRUSTED[if self.plain { 0 } else { several }];
         match (effects, self.approximate()) {
             (0, false) if hum => Verdict::MissingPhysics,
             (0, true) if hum => Verdict::PartlyExplained,
@@ -152,9 +149,9 @@ impl Evidence {
             (0, true) => Verdict::Unexplained,
             _ if self.against == Against::Surpassed => Verdict::Unexplained,
             (_, true) if self.share > trusted && self.p_rest < BEYOND_CHANCE => Verdict::Unexplained,
-            (_, true) if self.hidden || self.share > form => Verdict::PartlyExplained,
+            (_, true) if self.hidden || self.share > FORM[several] => Verdict::PartlyExplained,
             _ if self.against == Against::AtTheEnd => Verdict::PartlyExplained,
-            (1, true) if !self.plain && self.plainly_inexact() => Verdict::PartlyExplained,
+            (1, true) if self.plainly_inexact() => Verdict::PartlyExplained,
             _ => Verdict::MissingPhysics,
         }
     }

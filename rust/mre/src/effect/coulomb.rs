@@ -6,13 +6,22 @@
 //! | `z_y` | pre-sliding displacement (Dahl) | mm | 0.01 % to 5 % of the largest stroke |
 //! | `v_s` | velocity over which the sign is smoothed | mm/s | 0.001 % to 5 % of the largest speed |
 //!
-//! Dahl's element is integrated exactly in the displacement.
+//! Dahl's element is integrated exactly in the displacement. The smoothed sign is the sign itself at the lower end of its
+//! range: of a velocity that is zero but for its rounding, too.
 //! Reference: Dahl, Aerospace Corporation TOR-0158(3107-18)-1, 1968.
 //! Known limit: where all strokes are long against `z_y`, its value is not determined.
 
-use super::operators::{dahl, each};
+use super::operators::{dahl, each, sign};
 use super::{About, Effect, Scene, Sizes, ideal_below, order_within, positive};
 use crate::parameter::Parameter;
+
+/// A share by which numbers differ that went through a logarithm.
+const ROUNDING: f64 = 1e-9;
+
+/// Velocity in mm/s below which the sign is sharp.
+fn sharp(sizes: &Sizes) -> f64 {
+    1e-5 * sizes.velocity
+}
 
 /// How the sign of the velocity is smoothed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -54,7 +63,7 @@ impl Effect for Coulomb {
                 ))]
             }
             Self::Smoothed => {
-                vec![ideal_below(order_within("v_s", "mm/s", 1e-5 * sizes.velocity, 0.05 * sizes.velocity))]
+                vec![ideal_below(order_within("v_s", "mm/s", sharp(sizes), 0.05 * sizes.velocity))]
             }
         }
     }
@@ -70,6 +79,7 @@ impl Effect for Coulomb {
     fn columns(&self, scene: &Scene, shape: &[f64]) -> Vec<Vec<f64>> {
         vec![match self {
             Self::Dahl => dahl(scene, shape[0]),
+            Self::Smoothed if shape[0] <= (1.0 + ROUNDING) * sharp(scene.sizes) => each(scene.velocity, sign),
             Self::Smoothed => each(scene.velocity, |v| (v / shape[0]).tanh()),
         }]
     }
