@@ -14,6 +14,8 @@ FIT = {"held_out_rms_before": 3.2, "held_out_rms_after": 1.02, "noise_rms": 1.0}
         ("adequate", [], ["base model sinh", "down to their noise (rms 1 N)"]),
         ("missing_physics", ["inertia"], ["leaves out inertia: with it", "falls from 3.2 N to 1.02 N"]),
         ("missing_physics", ["inertia", "creep"], ["inertia and creep: with them", "noise has 1 N"]),
+        ("inexact", ["inertia"], ["what inertia comes nearest to, in a form", "with it"]),
+        ("inexact", ["inertia", "creep"], ["inertia and creep come nearest to", "with them"]),
         ("partly_explained", ["a", "b", "c"], ["a, b and c: with them", "a mismatch is left"]),
         ("unexplained", [], ["no effect of the catalogue explains", "3.2 N", "1 N"]),
     ],

@@ -10,7 +10,7 @@ FREQUENCIES = (0.8, 1.6, 4.5, 1.0)
 
 
 def campaign(loss: float, seed: int, noise: float = 0.6) -> Diagnosis:
-    """Sines with steps of amplitude on a spring and a dashpot; a share of the last force is lost after six seconds.
+    """Steps of amplitude on a spring and a dashpot; a share of the last force is lost after six seconds.
 
     The noise is correlated from sample to sample. No jump may be named.
     """

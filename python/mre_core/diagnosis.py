@@ -150,7 +150,8 @@ class Diagnosis:
         named = [e.id for e in self.effects]
         ends = {e.id: e.at_the_end for e in self.effects if e.at_the_end}
         whole = bool(ends) and self.p_values.get("rest", 0.0) > self.false_alarm
-        said = "nearest" if whole else self.verdict
+        inexact = self.verdict == "missing_physics" and any(e.form == "approximate" for e in self.effects)
+        said = "nearest" if whole else "inexact" if inexact else self.verdict
         if said is None or not isfinite(self.fit.held_out_rms_after):
             return words.broken_off(said, self.base, named)
         told = [words.verdict(said, self.base, named, asdict(self.fit))]
