@@ -151,7 +151,7 @@ def test_all_of_a_diagnosis_is_shown() -> None:
         "dF_m/dt = k_m v - F_m/tau",
         "0.98 to 1.12",
         "not determined",
-        "about 3.4 % of the force's rms is left",
+        "a further effect would add about 3.4 % of the force's rms",
         "cannot tell it from fractional_viscoelasticity",
         "not to be told from nothing: tau",
         "3.1 N without it and 1 N with it",
@@ -163,6 +163,14 @@ def test_all_of_a_diagnosis_is_shown() -> None:
         assert piece in page.words
     assert page.block("result") == a_diagnosis().to_dict()
     assert "The next test" not in page.words
+
+
+def test_a_diagnosis_without_a_verdict_says_what_stands() -> None:
+    broken_off = a_diagnosis(
+        verdict=None, p_values={"base": None, "rest": None, "effects": {}}, interrupted=True
+    )
+    assert str(broken_off).startswith("Interrupted before a verdict on the base model sinh"), broken_off
+    check_alone(Page(report_diagnosis(broken_off)))
 
 
 @pytest.mark.parametrize("verdict", ["adequate", "missing_physics", "partly_explained", "unexplained"])

@@ -40,10 +40,10 @@ class MissingEffect:
     form: str
     """``"exact"``, or ``"approximate"`` where the law is not exactly that of the catalogue."""
     lack_of_fit: float
-    """What an approximate form leaves, as a share of the force's rms."""
+    """What the best further effect would add to an approximate form, as a share of the force's rms."""
     indistinguishable_from: tuple[str, ...]
     no_test_tells: tuple[str, ...]
-    """Those of them that no excitation within the limits is expected to tell from it."""
+    """Those of them that the proposed test, the best within the limits, is not expected to tell from it."""
     at_the_end: tuple[str, ...]
     """Parameters that the recordings press to the end of their range, or that cannot be told from nothing and
     without which it is another effect: the name is then the nearest one, and the form approximate."""
@@ -149,7 +149,7 @@ class Diagnosis:
     def __str__(self) -> str:
         named = [e.id for e in self.effects]
         ends = {e.id: e.at_the_end for e in self.effects if e.at_the_end}
-        whole = bool(ends) and self.p_values.get("rest", 0.0) > self.false_alarm
+        whole = bool(ends) and (self.p_values.get("rest") or 0.0) > self.false_alarm
         inexact = self.verdict == "missing_physics" and any(e.form == "approximate" for e in self.effects)
         said = "nearest" if whole else "inexact" if inexact else self.verdict
         if said is None or not isfinite(self.fit.held_out_rms_after):

@@ -39,7 +39,8 @@ if TYPE_CHECKING:
     multiple=True,
     metavar="NAME=VALUE",
     help="Limit of the next test: stroke (mm), speed (mm/s), highest (frequency, Hz), duration (s), current "
-    "(LOWEST:HIGHEST, A); may be given several times. By default what was tested, 10 Hz, and 10 to 160 s.",
+    "(LOWEST:HIGHEST, A); may be given several times. By default what was tested, 10 Hz, and 10 to 40 s; "
+    "more where that tells more.",
 )
 @click.option("--seed", type=WHOLE, help="Same seed, same result.")
 @trim_options

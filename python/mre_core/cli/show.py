@@ -53,10 +53,13 @@ def print_diagnosis(found: "Diagnosis") -> None:
                 out.print(f"{effect.id}: these recordings cannot tell it from {rest}")
             if effect.no_test_tells:
                 rest = words.listed(effect.no_test_tells)
-                out.print(f"{effect.id}: no test within the limits is expected to tell it from {rest}")
+                out.print(
+                    f"{effect.id}: the best test within the limits is not expected to tell it from {rest}"
+                )
             if effect.form == "approximate" and (effect.lack_of_fit or not effect.at_the_end):
-                share = f"{100 * effect.lack_of_fit:.2g} %"
-                out.print(f"{effect.id}: its law is not exactly the catalogue's ({share} of the force left)")
+                adds = f" (a further effect would add {100 * effect.lack_of_fit:.2g} % of the force)"
+                left = adds if effect.lack_of_fit else ""
+                out.print(f"{effect.id}: its law is not exactly the catalogue's{left}")
     for place in found.where[:3]:
         out.print(f"where: {escape(place['what'])}")
     if found.absorbed:
