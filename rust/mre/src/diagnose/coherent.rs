@@ -12,17 +12,18 @@ use crate::assembly::Assembly;
 use crate::kernel::filter::dot;
 use crate::recording::Recording;
 
+/// A residual follows the motion where that is more than such a share of its squares in two halves,
+const MOST: f64 = 0.5;
+/// each of so many cycles: slow noise follows a motion of fewer too.
+const MANY_CYCLES: usize = 5;
+/// Or where it is such a share in more stretches,
+const SOME: f64 = 0.2;
+/// each of so many cycles,
+const CYCLES: usize = 2;
+/// and an autoregression predicts the rest so much better as chance would let it this seldom.
+const BY_CHANCE: f64 = 1e-6;
 /// Most stretches of a recording, in each of which its residual may follow the motion in another way.
 const STRETCHES: usize = 8;
-/// It does where that is more than such a share of its squares, with so many cycles in each of two stretches or more:
-/// over fewer, slow noise follows the motion too.
-const MOST: f64 = 0.5;
-const MANY_CYCLES: usize = 5;
-/// Or a smaller share over fewer cycles, where an autoregression predicts the rest so much better as chance would let it
-/// this seldom.
-const SOME: f64 = 0.2;
-const CYCLES: usize = 2;
-const BY_CHANCE: f64 = 1e-6;
 /// Share of its range by which a motion leaves its middle to count.
 const ASIDE: f64 = 0.1;
 
@@ -45,22 +46,18 @@ fn beside_the_motion(residual: &[f64], motion: &[Vec<f64>; 2], recording: &Recor
     let each_has = |count: usize, least: usize| {
         stretches(residual.len(), count).all(|s| cycles(&about_its_mean(&motion[0][s])) >= least)
     };
-    if let Some(long) = (2..=STRETCHES).rev().find(|count| each_has(*count, MANY_CYCLES)) {
-        let (left, share) = without(residual, motion, long);
-        if share < 1.0 - MOST {
-            return Some(left);
-        }
-    }
     let most = (1..=STRETCHES).rev().find(|count| each_has(*count, CYCLES))?;
-    let (left, share) = without(residual, motion, most);
-    if share > 1.0 - SOME {
-        return None;
-    }
     let step = 1.0 / recording.sampling_rate();
-    let unpredicted =
-        |series: &[f64]| Choice::best(&[&Products::of(&without_hum(series, step), step)]).criterion;
-    let gain = unpredicted(residual) - unpredicted(&left);
-    (chi_square_tail(gain / CAUTION, 2 * most) < BY_CHANCE).then_some(left)
+    let calm = without_hum(residual, step);
+    let (left, share) = without(&calm, motion, most);
+    let in_halves = || each_has(2, MANY_CYCLES) && without(&calm, motion, 2).1 < 1.0 - MOST;
+    let predicted = |series: &[f64]| Choice::best(&[&Products::of(series, step)]).criterion;
+    let beyond_chance = || {
+        let gain = predicted(&calm) - predicted(&left);
+        share < 1.0 - SOME && chi_square_tail(gain / CAUTION, 2 * most) < BY_CHANCE
+    };
+    let follows = in_halves() || beyond_chance();
+    follows.then(|| residual.iter().zip(calm).zip(left).map(|((e, calm), left)| e - calm + left).collect())
 }
 
 /// A residual less what follows the motion in each of some stretches, and the share of its squares that stays.
@@ -83,6 +80,7 @@ fn without(residual: &[f64], motion: &[Vec<f64>; 2], count: usize) -> (Vec<f64>,
 fn stretches(samples: usize, count: usize) -> impl Iterator<Item = Range<usize>> {
     (0..count).map(move |k| samples * k / count..samples * (k + 1) / count)
 }
+
 fn about_its_mean(series: &[f64]) -> Vec<f64> {
     let mean = series.iter().sum::<f64>() / series.len() as f64;
     series.iter().map(|value| value - mean).collect()

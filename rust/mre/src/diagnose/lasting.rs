@@ -7,6 +7,9 @@ use super::null::Null;
 
 /// Parts of a recording between which the stiffness may change for good.
 const PARTS: usize = 20;
+/// So many squared standard deviations more than a change between recordings tell a moment too, where the other
+/// recordings show so much that their share in it is small.
+const BEYOND: f64 = 50.0;
 /// Recordings at most: the work grows with their square.
 const MOST: usize = 60;
 
@@ -45,7 +48,7 @@ pub(super) fn lasting(null: &Null) -> Vec<Finding> {
         let width = scene.duration() / PARTS as f64;
         for part in 1..PARTS {
             let own = strength(Some(r * PARTS + part));
-            if own * own > CLEARLY * between {
+            if own * own > (CLEARLY * between).min(between + BEYOND) {
                 let at = scene.time[scene.len() * part / PARTS];
                 let (first, last) = (scene.time[0], scene.time[scene.len() - 1]);
                 let (from, to) = ((at - width).max(first), (at + width).min(last));

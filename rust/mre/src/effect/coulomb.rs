@@ -6,8 +6,8 @@
 //! | `z_y` | pre-sliding displacement (Dahl) | mm | 0.01 % to 5 % of the largest stroke |
 //! | `v_s` | velocity over which the sign is smoothed | mm/s | 0.001 % to 5 % of the largest speed |
 //!
-//! Dahl's element is integrated exactly in the displacement. The smoothed sign is the sign itself at the lower end of its
-//! range: of a velocity that is zero but for its rounding, too.
+//! Dahl's element is integrated exactly in the displacement. At the lower end of `v_s` the smoothed sign is the sign itself,
+//! as it is of a velocity that only its rounding keeps from zero.
 //! Reference: Dahl, Aerospace Corporation TOR-0158(3107-18)-1, 1968.
 //! Known limit: where all strokes are long against `z_y`, its value is not determined.
 
