@@ -24,15 +24,13 @@ def verdict(kind: str, base: str, effects: Sequence[str], fit: Mapping[str, Any]
     named = listed(effects)
     falls, noise = _change(fit), _force(fit["noise_rms"])
     error = _force(fit["held_out_rms_before"])
-    come = "come" if len(effects) > 1 else "comes"
     return {
         "adequate": f"{model} explains the recordings down to their noise (rms {noise}).",
         "missing_physics": f"{model} leaves out {named}: with it {falls}, where the noise has {noise}.",
         "partly_explained": f"{model} leaves out {named}: with it {falls}, but a mismatch is left that no"
         " effect of the catalogue explains.",
-        "nearest": f"{model} leaves out what {named} {come} nearest to: with it {falls}, where the noise has"
-        f" {noise}.",
-        "inexact": f"{model} leaves out what {named} {come} nearest to, in a form that is not exactly the"
+        "nearest": f"{model} leaves out {_nearest(effects)}: with it {falls}, where the noise has {noise}.",
+        "inexact": f"{model} leaves out {_nearest(effects)}, in a form that is not exactly the"
         f" catalogue's: with it {falls}, where the noise has {noise}.",
         "unexplained": f"{model} misses something that no effect of the catalogue explains: its rms error on"
         f" held-out data is {error}, where the noise has {noise}.",
@@ -62,13 +60,12 @@ def broken_off(kind: str | None, base: str, effects: Sequence[str]) -> str:
     if kind is None:
         so_far = f"so far {listed(effects)} would be named" if effects else "so far nothing is named"
         return f"Interrupted before a verdict on {model}: {so_far}, and nothing is proved."
-    come = "come" if len(effects) > 1 else "comes"
     stands = {
         "adequate": "it explains the recordings down to their noise",
         "missing_physics": f"it leaves out {listed(effects)}",
         "partly_explained": f"it leaves out {listed(effects)}, and more that nothing known explains",
-        "nearest": f"it leaves out what {listed(effects)} {come} nearest to",
-        "inexact": f"it leaves out what {listed(effects)} {come} nearest to, in another form",
+        "nearest": f"it leaves out {_nearest(effects)}",
+        "inexact": f"it leaves out {_nearest(effects)}, in another form",
         "unexplained": "it misses something that no effect of the catalogue explains",
     }[kind]
     return f"Interrupted after the verdict on {model}: {stands}; not yet proved on held-out data."
@@ -253,6 +250,11 @@ def interval(low: float | None, high: float | None) -> str:
 def number_of(count: int, thing: str) -> str:
     """Count things as in a sentence: ``1 case``, ``2 cases``."""
     return f"{count} {thing}" if count == 1 else f"{count} {thing}s"
+
+
+def _nearest(effects: Sequence[str]) -> str:
+    """Say what effects are the nearest names of."""
+    return f"what {listed(effects)} {'come' if len(effects) > 1 else 'comes'} nearest to"
 
 
 def listed(names: Sequence[str]) -> str:
