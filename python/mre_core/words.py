@@ -215,6 +215,8 @@ EXCITATIONS = {
     "fast_sine": "a fast sine of {amplitude_mm:.3g} mm at {frequency_hz:.3g} Hz",
     "rising_and_falling_amplitudes": "sines of {frequency_hz:.3g} Hz with amplitudes that rise to"
     " {amplitude_mm:.3g} mm and fall again, with rests",
+    "sine_before_and_after_a_rest": "a sine of {amplitude_mm:.3g} mm at {frequency_hz:.3g} Hz before and after a"
+    " rest, each a third of the time",
     "sweep": "a sweep up to {frequency_hz:.3g} Hz",
     "hold": "a step to {amplitude_mm:.3g} mm, held",
     "multisine": "an odd random-phase multisine up to {frequency_hz:.3g} Hz",

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use super::doubt::{Doubt, Member, Told, told};
 use super::excitation::{Kind, Signal};
 use super::limits::Limits;
+use super::truth::{Truth, truths};
 use super::view::{Held, View};
 use super::world::World;
 use crate::assembly::Base;
@@ -31,8 +32,8 @@ pub(super) struct Bench<'b, 'a> {
     models: Vec<Candidate<'a>>,
     /// What may stand in each place in doubt.
     places: Vec<Vec<Member>>,
-    /// Models that may be true, the one named first.
-    truths: Vec<usize>,
+    /// What may be true, the model named at its best fit first.
+    truths: Vec<Truth<'a>>,
     held: Vec<Held>,
 }
 
@@ -54,10 +55,16 @@ impl<'b, 'a> Bench<'b, 'a> {
     ) -> Self {
         let models = doubt.models(named);
         let data = Data { noise: &named.noise, rows, monitor };
-        let held = models.par_iter().map(|model| Held::of(model, data)).collect();
+        let held: Vec<Held> = models.par_iter().map(|model| Held::of(model, data)).collect();
         let places = doubt.places(named, &criteria(&models));
-        let rivals = places.iter().flatten().map(|member| member.likeliest).filter(|model| *model > 0);
-        let truths = std::iter::once(0).chain(rivals).collect();
+        let left = |model: usize| models[model].fitted.left;
+        let in_doubt = places.iter().flatten().flat_map(|member| member.may_be_true(left));
+        let mut true_ones: Vec<(usize, f64)> = std::iter::once((0, 1.0)).chain(in_doubt).collect();
+        true_ones.sort_by_key(|(model, _)| *model);
+        true_ones.dedup_by_key(|(model, _)| *model);
+        let truths =
+            true_ones.par_iter().flat_map(|(i, share)| truths(*i, *share, &models[*i], &held[*i], data));
+        let truths = truths.collect();
         let noise = named.noise.with_another_like(0);
         Self { base, rows, monitor, noise, models, places, truths, held }
     }
@@ -72,7 +79,7 @@ impl<'b, 'a> Bench<'b, 'a> {
         let forces = self
             .truths
             .par_iter()
-            .map(|truth| world.simulated(&self.models[*truth]).map(|force| every(&force)))
+            .map(|truth| world.simulated(&truth.candidate).map(|force| every(&force)))
             .collect::<Option<Vec<Vec<f64>>>>()?;
         // A velocity that was recorded will be again.
         let derived = known.recordings()[0].velocity_window().is_some();
@@ -95,11 +102,20 @@ impl<'b, 'a> Bench<'b, 'a> {
             .zip(&self.held)
             .map(|(model, held)| View::new(&world, model, held, &self.noise))
             .collect();
+        let seen: Vec<Vec<f64>> =
+            self.truths.par_iter().map(|truth| world.simulated(&truth.candidate)).collect::<Option<_>>()?;
         let more = (self.known_samples() + test.signal.time.len()) as f64 / self.known_samples() as f64;
         let criterion = |t: usize, model: usize| {
             let fitted = &self.models[model].fitted;
             let price = fitted.parameters() as f64 * more.ln();
-            fitted.criterion() + price + views[model].lack(&test.forces[t], &self.noise)
+            let truth = &self.truths[t];
+            let lack = if truth.model == model {
+                // Between its samples it may move on.
+                truth.behind + views[model].lack(&test.forces[t], &seen[t], &self.noise)
+            } else {
+                views[model].lack(&test.forces[t], &views[model].force, &self.noise)
+            };
+            fitted.criterion() + price + lack
         };
         self.monitor.whole(self.told(criterion))
     }
@@ -108,14 +124,15 @@ impl<'b, 'a> Bench<'b, 'a> {
     pub(super) fn look(&self, test: &Imagined) -> Option<Told> {
         let worlds: Vec<World> =
             test.forces.iter().map(|force| self.world(test, Some(force))).collect::<Option<_>>()?;
-        self.monitor.whole(self.told(|t, model| self.fitted(&worlds[t], model, self.truths[t] == model)))
+        self.monitor.whole(self.told(|t, model| self.fitted(&worlds[t], model, &self.truths[t])))
     }
 
     /// What is told, given the criterion of a model where one of the truths shows its force.
     fn told(&self, criterion: impl Fn(usize, usize) -> f64 + Sync) -> Told {
-        let of = |(t, truth): (usize, &usize)| {
+        let of = |(t, truth): (usize, &Truth)| {
+            let place = truth.model;
             let beside =
-                self.places.iter().filter(move |members| members.iter().any(|m| m.likeliest == *truth));
+                self.places.iter().filter(move |members| members.iter().any(|m| m.models.contains(&place)));
             let mut models: Vec<usize> = beside.flatten().flat_map(|m| m.models.iter().copied()).collect();
             models.sort_unstable();
             models.dedup();
@@ -124,16 +141,19 @@ impl<'b, 'a> Bench<'b, 'a> {
         let jobs: Vec<(usize, usize)> = self.truths.iter().enumerate().flat_map(of).collect();
         let found: Vec<f64> = jobs.par_iter().map(|(t, model)| criterion(*t, *model)).collect();
         let known = |job: (usize, usize)| jobs.iter().position(|j| *j == job).map(|place| found[place]);
-        told(&self.places, &criteria(&self.models), |truth, other| {
-            let t = self.truths.iter().position(|known| *known == truth).unwrap_or(0);
-            let difference = known((t, other)).zip(known((t, truth))).map_or(0.0, |(o, own)| o - own);
+        let weights: Vec<(usize, f64)> = self.truths.iter().map(|t| (t.model, t.weight)).collect();
+        told(&self.places, &criteria(&self.models), &weights, |t, other| {
+            let own = self.truths[t].model;
+            let difference = known((t, other)).zip(known((t, own))).map_or(0.0, |(o, own)| o - own);
             // Where neither can follow the test, it tells nothing.
             if difference.is_nan() { 0.0 } else { difference }
         })
     }
 
-    fn fitted(&self, world: &World, model: usize, is_true: bool) -> f64 {
-        let (rows, known) = (self.rows_with(world), &self.models[model]);
+    fn fitted(&self, world: &World, model: usize, truth: &Truth<'a>) -> f64 {
+        let is_true = truth.model == model;
+        let (rows, known) =
+            (self.rows_with(world), if is_true { &truth.candidate } else { &self.models[model] });
         let data = self.data(&rows);
         let fitted = fit(world.assembly(known), data, &known.fitted.unit);
         // What the recordings leave open may lie far from what the test asks of another model.

@@ -11,6 +11,8 @@ const PLENTY: f64 = 100.0;
 const SURER: f64 = 0.05;
 /// Logarithm of the highest odds that are told of a rival: where it is as good as certain.
 const MOST_ODDS: f64 = 50.0;
+/// A law with a smaller share of the likelihood is not imagined.
+const UNLIKELY: f64 = 0.1;
 /// A rival with a smaller chance of being ruled out is expected to be left.
 const EVEN: f64 = 0.5;
 
@@ -37,9 +39,21 @@ pub(in super::super) struct Doubt<'a> {
 pub(super) struct Member {
     effect: &'static str,
     /// Its likeliest model.
-    pub(super) likeliest: usize,
+    likeliest: usize,
     /// All of its models.
     pub(super) models: Vec<usize>,
+}
+
+impl Member {
+    /// Its likeliest model, and of its other laws the one that leaves least, each with its share of the likelihood: what
+    /// a parameter more costs says which law is to be named, not which is true.
+    pub(super) fn may_be_true(&self, left: impl Fn(usize) -> f64) -> Vec<(usize, f64)> {
+        let others = self.models.iter().copied().filter(|model| *model != self.likeliest);
+        let least = others.min_by(|a, b| left(*a).total_cmp(&left(*b)));
+        let share = |model: usize| (0.5 * (left(self.likeliest) - left(model))).exp().min(1.0);
+        let other = least.map(|model| (model, share(model))).filter(|(_, share)| *share > UNLIKELY);
+        std::iter::once((self.likeliest, 1.0)).chain(other).collect()
+    }
 }
 
 /// What an excitation is expected to tell of effects in doubt.
@@ -95,26 +109,35 @@ impl<'a> Doubt<'a> {
     }
 }
 
-/// What evidence tells of what may stand in each place, given the criteria of all models, and the difference in the
-/// criterion by which a first model that is true rules out a second.
-pub(super) fn told(places: &[Vec<Member>], criteria: &[f64], against: impl Fn(usize, usize) -> f64) -> Told {
+/// What evidence tells of what may stand in each place, given the criteria of all models, what may be true as a model and
+/// its weight, and the difference in the criterion by which each of those rules out a model.
+pub(super) fn told(
+    places: &[Vec<Member>],
+    criteria: &[f64],
+    truths: &[(usize, f64)],
+    against: impl Fn(usize, usize) -> f64,
+) -> Told {
     let mut all = Told { chances: Vec::new(), leaves: Vec::new(), certainty: 1.0, worth: 0.0 };
+    // Mean over the parameters at which a member may be true.
+    let mean = |truth: &Member, of: &dyn Fn(usize) -> f64| {
+        let own = || truths.iter().enumerate().filter(|(_, (model, _))| truth.models.contains(model));
+        let whole: f64 = own().map(|(_, (_, weight))| weight).sum();
+        own().map(|(t, (_, weight))| weight / whole * of(t)).sum::<f64>()
+    };
+    // The evidence against the likeliest law of the other.
+    let evidence =
+        |t: usize, other: &Member| other.models.iter().map(|m| against(t, *m)).fold(f64::INFINITY, f64::min);
     for members in places {
         let odds: Vec<f64> = members
             .iter()
             .map(|m| (0.5 * (criteria[0] - criteria[m.likeliest])).min(MOST_ODDS).exp())
             .collect();
         let whole: f64 = odds.iter().sum();
-        // By truth and other: the evidence against the likeliest law of the other.
-        let evidence = |truth: &Member, other: &Member| {
-            other.models.iter().map(|m| against(truth.likeliest, *m)).fold(f64::INFINITY, f64::min)
-        };
+        let found = |truth: &Member, other: &Member| mean(truth, &|t| chance(evidence(t, other)));
         let mut certainty = 0.0;
         for (truth, odds) in members.iter().zip(&odds) {
             let others = || members.iter().filter(|other| other.likeliest != truth.likeliest);
-            let against: Vec<f64> = others().map(|other| evidence(truth, other)).collect();
-            let doubted = others().zip(&against).filter(|(_, e)| chance(**e) < EVEN);
-            let doubted = doubted.map(|(other, _)| other.effect);
+            let doubted = others().filter(|other| found(truth, other) < EVEN).map(|other| other.effect);
             match all.leaves.iter_mut().find(|(known, _)| *known == truth.effect) {
                 Some((_, left)) => {
                     let more: Vec<&str> = doubted.filter(|id| !left.contains(id)).collect();
@@ -122,17 +145,20 @@ pub(super) fn told(places: &[Vec<Member>], criteria: &[f64], against: impl Fn(us
                 }
                 None => all.leaves.push((truth.effect, doubted.collect())),
             }
-            certainty += odds / whole * against.iter().map(|e| chance(*e)).fold(1.0, f64::min);
-            all.worth += odds / whole * against.iter().map(|e| chance(*e) + surer(*e)).sum::<f64>();
+            let least = |t: usize| others().map(|other| chance(evidence(t, other))).fold(1.0, f64::min);
+            certainty += odds / whole * mean(truth, &least);
+            let of = |e: f64| chance(e) + surer(e);
+            let worth = |t: usize| others().map(|other| of(evidence(t, other))).sum::<f64>();
+            all.worth += odds / whole * mean(truth, &worth);
         }
         all.certainty *= certainty;
         for (member, odds) in members.iter().zip(&odds).skip(1) {
             let effect = member.effect;
-            let (own, other) = (evidence(&members[0], member), evidence(member, &members[0]));
-            let found = (chance(own) + odds * chance(other)) / (1.0 + odds);
+            let (own, other) = (found(&members[0], member), found(member, &members[0]));
+            let chance = (own + odds * other) / (1.0 + odds);
             match all.chances.iter_mut().find(|(known, _)| *known == effect) {
-                Some((_, least)) => *least = least.min(found),
-                None => all.chances.push((effect, found)),
+                Some((_, least)) => *least = least.min(chance),
+                None => all.chances.push((effect, chance)),
             }
         }
     }
@@ -164,11 +190,37 @@ mod tests {
     }
 
     #[test]
+    fn what_the_recordings_leave_open_of_a_truth_counts_by_its_likelihood() {
+        let member = |effect, model| Member { effect, likeliest: model, models: vec![model] };
+        let members = vec![member("thermal_softening", 0), member("cyclic_degradation", 1)];
+        // Without cooling the two are twins; with it, half as likely, they are not.
+        let truths = [(0, 1.0), (0, 0.5), (1, 1.0)];
+        let against = |t: usize, other: usize| match (t, other) {
+            (1, 1) | (2, 0) => 1e3,
+            _ => 0.0,
+        };
+        let found = told(&[members], &[7.0; 2], &truths, against);
+        assert!((found.certainty - 2.0 / 3.0).abs() < 1e-4, "{}", found.certainty);
+        assert_eq!(
+            found.leaves,
+            [("thermal_softening", vec!["cyclic_degradation"]), ("cyclic_degradation", vec![])]
+        );
+    }
+
+    #[test]
+    fn another_law_may_be_true_where_only_its_price_speaks_against_it() {
+        let member = Member { effect: "thermal_softening", likeliest: 0, models: vec![0, 1, 2] };
+        assert_eq!(member.may_be_true(|model| [10.0, 9.0, 12.0][model]), [(0, 1.0), (1, 1.0)]);
+        assert_eq!(member.may_be_true(|model| [10.0, 40.0, 30.0][model]), [(0, 1.0)]);
+    }
+
+    #[test]
     fn a_twin_of_a_rival_leaves_a_doubt_unless_the_one_named_is_true() {
         let member = |effect, model| Member { effect, likeliest: model, models: vec![model] };
         let members = vec![member("time_delay", 0), member("filter_lag", 1), member("rig_compliance", 2)];
         let twins = |truth: usize, other: usize| if truth > 0 && other > 0 { 0.0 } else { 1e3 };
-        let found = told(&[members], &[7.0; 3], twins);
+        let truths = [(0, 1.0), (1, 1.0), (2, 1.0)];
+        let found = told(&[members], &[7.0; 3], &truths, twins);
         assert!((found.certainty - 1.0 / 3.0).abs() < 1e-4, "{}", found.certainty);
         assert!(found.chances.iter().all(|(_, chance)| *chance > 0.999));
         let left: Vec<&[&str]> = found.leaves.iter().map(|(_, left)| left.as_slice()).collect();

@@ -16,6 +16,8 @@ pub enum Kind {
     FastSine,
     /// Sines of rising and falling amplitude with rests.
     Amplitudes,
+    /// A sine of full stroke, a rest, and the sine again.
+    Rest,
     /// A sine whose frequency rises, as large as stroke and speed allow.
     Sweep,
     /// A step away from the middle, held.
@@ -27,10 +29,11 @@ pub enum Kind {
 }
 
 /// All kinds.
-pub const KINDS: [Kind; 7] = [
+pub const KINDS: [Kind; 8] = [
     Kind::SlowSine,
     Kind::FastSine,
     Kind::Amplitudes,
+    Kind::Rest,
     Kind::Sweep,
     Kind::Hold,
     Kind::Multisine,
@@ -70,6 +73,7 @@ impl Kind {
             Self::SlowSine => "slow_sine",
             Self::FastSine => "fast_sine",
             Self::Amplitudes => "rising_and_falling_amplitudes",
+            Self::Rest => "sine_before_and_after_a_rest",
             Self::Sweep => "sweep",
             Self::Hold => "hold",
             Self::Multisine => "multisine",
@@ -91,6 +95,7 @@ impl Kind {
             Self::SlowSine => (sine(slow), slow),
             Self::FastSine => (sine(highest), highest),
             Self::Amplitudes => (amplitudes(&time, duration, middle, stroke), middle),
+            Self::Rest => (rest(&sine(middle), &time, duration), middle),
             Self::Sweep => (sweep(&time, duration, (slow, highest), largest), highest),
             Self::Hold => (time.iter().map(|t| 0.8 * stroke * smooth((t - RAMP) / RAMP)).collect(), slow),
             Self::Multisine => (multisine(&time, slow, highest), highest),
@@ -152,6 +157,12 @@ fn amplitudes(time: &[f64], duration: f64, frequency: f64, stroke: f64) -> Vec<f
         .collect()
 }
 
+/// The motion, with its middle third at rest.
+fn rest(motion: &[f64], time: &[f64], duration: f64) -> Vec<f64> {
+    let moving = |t: f64| smooth((duration / 3.0 - t) / RAMP) + smooth((t - 2.0 * duration / 3.0) / RAMP);
+    motion.iter().zip(time).map(|(x, t)| x * moving(*t)).collect()
+}
+
 fn sweep(time: &[f64], duration: f64, (low, high): (f64, f64), largest: impl Fn(f64) -> f64) -> Vec<f64> {
     let growth = (high / low).max(1.0 + 1e-9).ln() / duration;
     time.iter()
@@ -205,6 +216,8 @@ mod tests {
                 signal.displacement.windows(2).fold(0.0_f64, |m, p| m.max((p[1] - p[0]).abs())) * 200.0;
             assert!(far <= 5.0 + 1e-9 && fast <= 40.0 + 1e-9, "{kind:?} {far} {fast}");
             assert!(far > 0.1, "{kind:?} {far}");
+            let resting = signal.displacement[1500..2500].iter().all(|x| *x == 0.0);
+            assert_eq!(resting, kind == Kind::Rest, "{kind:?}");
         }
         assert!(Kind::CurrentSteps.signal(&Limits { current: None, ..limits }).is_none());
     }

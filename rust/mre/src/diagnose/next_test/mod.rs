@@ -10,30 +10,23 @@ mod doubt;
 mod excitation;
 mod hidden;
 mod limits;
+mod telling;
+mod truth;
 mod view;
 mod world;
-
-use rayon::prelude::*;
 
 use super::monitor::Monitor;
 use super::normal::Rows;
 use super::search::Named;
 use super::settings::Settings;
 use crate::assembly::Base;
-use bench::{Bench, Imagined};
-use doubt::Told;
+use bench::Bench;
 use hidden::Hidden;
+use telling::to_tell;
 
 pub(super) use doubt::{Doubt, Rival};
 pub use excitation::{KINDS, Kind, Signal};
 pub use limits::{GivenLimits, Limits};
-
-/// A test that is harder to make has to rule out so many more effects.
-const WORTH: f64 = 0.1;
-/// Chance that nothing is in doubt any more that is enough.
-const ENOUGH: f64 = 0.95;
-/// Excitations that are looked at closely.
-const CLOSELY: usize = 2;
 
 /// What an excitation is expected to tell.
 #[derive(Debug, Clone, PartialEq)]
@@ -113,50 +106,4 @@ fn to_show(bench: &Bench, limits: &Limits, hidden: &Hidden) -> Option<NextTest> 
     let mut prospects: Vec<Prospect> = KINDS.iter().filter_map(prospect).collect();
     prospects.sort_by(|a, b| b.worth().total_cmp(&a.worth()));
     (!prospects.is_empty()).then(|| NextTest { limits: limits.clone(), prospects })
-}
-
-/// A test that tells what is in doubt.
-struct Telling {
-    kind: Kind,
-    test: Imagined,
-    told: Told,
-}
-
-/// The easiest test that tells enough, or the one that tells most; with what it shows besides of what is hidden.
-fn to_tell(bench: &Bench, wider: &[Limits], hidden: &Hidden) -> Option<NextTest> {
-    let mut best: Option<(&Limits, Vec<Telling>)> = None;
-    for limits in wider {
-        let glance = |kind: &Kind| {
-            let test = bench.imagine(*kind, limits)?;
-            Some(Telling { kind: *kind, told: bench.glance(&test)?, test })
-        };
-        let mut all: Vec<Telling> = KINDS.par_iter().filter_map(glance).collect();
-        best_first(&mut all);
-        let least = best.as_ref().map_or(f64::NEG_INFINITY, |(_, known)| known[0].told.worth + WORTH);
-        let mut closely: Vec<Telling> = Vec::new();
-        for mut telling in all.drain(..CLOSELY.min(all.len())).filter(|t| t.told.worth > least) {
-            telling.told = bench.look(&telling.test)?;
-            closely.push(telling);
-        }
-        best_first(&mut closely);
-        if closely.first().is_some_and(|first| first.told.worth > least) {
-            closely.extend(all);
-            best = Some((limits, closely));
-        }
-        if best.as_ref().is_some_and(|(_, known)| known[0].told.certainty >= ENOUGH) {
-            break;
-        }
-    }
-    let (limits, all) = best?;
-    let prospect = |t: &Telling| {
-        let prospect = Prospect::new(t.kind, t.test.signal(), limits, t.told.chances.clone());
-        Prospect { certainty: Some(t.told.certainty), leaves: t.told.leaves.clone(), ..prospect }
-    };
-    let mut prospects: Vec<Prospect> = all.iter().map(prospect).collect();
-    prospects[0].chances.extend(hidden.shown(bench, &all[0].test).unwrap_or_default());
-    Some(NextTest { limits: limits.clone(), prospects })
-}
-
-fn best_first(all: &mut [Telling]) {
-    all.sort_by(|a, b| b.told.worth.total_cmp(&a.told.worth));
 }

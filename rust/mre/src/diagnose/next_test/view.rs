@@ -23,12 +23,17 @@ impl Held {
         let point = Point::at(&model.assembly, data, model.fitted.unit.clone());
         Self(point.with_tangents(&model.assembly, data))
     }
+
+    /// Products of the coefficients and then the shapes.
+    pub(super) fn gram(&self) -> &DMatrix<f64> {
+        &self.0.gram
+    }
 }
 
 /// A model on an imagined test.
 pub(super) struct View {
     /// Force in N at the parameters that the recordings have.
-    force: Vec<f64>,
+    pub(super) force: Vec<f64>,
     /// Whitened columns and tangents on the test, by place.
     columns: Vec<(usize, Vec<f64>)>,
     /// Products of these, and of those on the recordings.
@@ -63,9 +68,9 @@ impl View {
         Self { columns, gram, unit: fitted.unit, place, force }
     }
 
-    /// Whitened sum of squares that the model adds where the test shows a force in N.
-    pub(super) fn lack(&self, force: &[f64], noise: &Noise) -> f64 {
-        let off: Vec<f64> = force.iter().zip(&self.force).map(|(f, model)| f - model).collect();
+    /// Whitened sum of squares that the model adds where the test shows a force in N, and the model has another.
+    pub(super) fn lack(&self, force: &[f64], of_the_model: &[f64], noise: &Noise) -> f64 {
+        let off: Vec<f64> = force.iter().zip(of_the_model).map(|(f, model)| f - model).collect();
         let off = noise.whiten(self.place, &off);
         let all = dot(&off, &off);
         if !all.is_finite() {

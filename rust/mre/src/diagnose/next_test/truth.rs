@@ -1,0 +1,96 @@
+//! What may be true: models that are in doubt, and how far the recordings leave their shapes open.
+
+use nalgebra::{DMatrix, SymmetricEigen};
+use rayon::prelude::*;
+
+use super::view::Held;
+use crate::diagnose::candidates::Candidate;
+use crate::diagnose::least_squares::Data;
+use crate::diagnose::point::Point;
+
+/// Standard deviation in the unit box of a shape that the recordings leave open.
+const OPEN: f64 = 0.3;
+/// A direction that is held within so much of the box is no other truth.
+const HELD: f64 = 0.02;
+/// A point whose likelihood is a smaller share of the best one's is nearer to it than the curvature says.
+const LIKELY: f64 = 0.2;
+/// Times that its distance is halved then.
+const HALVINGS: usize = 3;
+/// Regularises coefficients that no sample determines, beside their scaled products.
+const RIDGE: f64 = 1e-10;
+
+/// A model that may be true, at parameters that may.
+pub(super) struct Truth<'a> {
+    /// Place among the models in doubt.
+    pub(super) model: usize,
+    /// The model at these parameters.
+    pub(super) candidate: Candidate<'a>,
+    /// Share of the likelihood.
+    pub(super) weight: f64,
+    /// What it leaves of the recordings more than the best fit, in squared standard deviations.
+    pub(super) behind: f64,
+}
+
+/// The best fit of a model with a share of the likelihood, and where the recordings leave shapes open points a standard deviation to both sides along what they
+/// hold least.
+pub(super) fn truths<'a>(
+    place: usize,
+    share: f64,
+    model: &Candidate<'a>,
+    held: &Held,
+    data: Data,
+) -> Vec<Truth<'a>> {
+    let best = Truth { model: place, candidate: model.clone(), weight: share, behind: 0.0 };
+    let Some(open) = least_held(held, model.fitted.unit.len()) else { return vec![best] };
+    let beside = [-1.0, 1.0].par_iter().filter_map(|side| {
+        let far = (0..=HALVINGS).map(|halvings| side * 0.5_f64.powi(halvings as i32));
+        far.map(|far| point(model, &open, far, data)).find_map(|found| {
+            let (candidate, moved) = found;
+            let behind = (candidate.fitted.left - model.fitted.left).max(0.0);
+            let likely = (-0.5 * behind).exp();
+            let truth = Truth { model: place, candidate, weight: share * likely, behind };
+            (moved > HELD && likely > LIKELY).then_some(truth)
+        })
+    });
+    let beside: Vec<Truth> = beside.collect();
+    std::iter::once(best).chain(beside).collect()
+}
+
+/// The direction of the shapes along which the recordings say least, as long as one standard deviation.
+fn least_held(held: &Held, shapes: usize) -> Option<Vec<f64>> {
+    let gram = held.gram();
+    let k = gram.nrows() - shapes;
+    if shapes == 0 {
+        return None;
+    }
+    let scale: Vec<f64> =
+        (0..k).map(|i| if gram[(i, i)] > 0.0 { gram[(i, i)].sqrt() } else { 1.0 }).collect();
+    let own = DMatrix::from_fn(k, k, |i, j| {
+        let ridge = if i == j { RIDGE + f64::from(u8::from(gram[(i, i)] <= 0.0)) } else { 0.0 };
+        gram[(i, j)] / (scale[i] * scale[j]) + ridge
+    });
+    let cross = DMatrix::from_fn(k, shapes, |i, j| gram[(i, k + j)] / scale[i]);
+    let shared = cross.transpose() * own.cholesky()?.solve(&cross);
+    let alone = DMatrix::from_fn(shapes, shapes, |i, j| {
+        let prior = if i == j { OPEN.powi(-2) } else { 0.0 };
+        gram[(k + i, k + j)] - 0.5 * (shared[(i, j)] + shared[(j, i)]) + prior
+    });
+    let SymmetricEigen { eigenvalues, eigenvectors } = alone.symmetric_eigen();
+    let least = eigenvalues.imin();
+    let deviation = eigenvalues[least].max(OPEN.powi(-2)).powf(-0.5);
+    (deviation > HELD).then(|| eigenvectors.column(least).iter().map(|v| deviation * v).collect())
+}
+
+/// A model so far along a direction, with the best coefficients there, and how far its shapes have moved in the box.
+fn point<'a>(model: &Candidate<'a>, open: &[f64], far: f64, data: Data) -> (Candidate<'a>, f64) {
+    let known = &model.fitted.unit;
+    let unit: Vec<f64> = known.iter().zip(open).map(|(u, o)| (u + far * o).clamp(0.0, 1.0)).collect();
+    let moved = unit.iter().zip(known).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
+    let mut assembly = model.assembly.clone();
+    let mut fitted = Point::at(&assembly, data, unit).fitted;
+    if assembly.flexibility(&assembly.physical(&fitted.unit)).is_some() {
+        assembly = assembly.seeing_its_force(&fitted.unit, &fitted.coefficients);
+        fitted = Point::at(&assembly, data, fitted.unit).fitted;
+    }
+    (Candidate { assembly, fitted }, moved)
+}
