@@ -54,3 +54,19 @@ def test_an_ideal_end_is_no_end() -> None:
     found = mre_core.diagnose([rubbed(r) for r in campaign(0.0)], seed=1)
     assert found.verdict == "missing_physics"
     assert [(e.id, e.at_the_end) for e in found.effects] == [("coulomb_friction", ())]
+
+
+def test_a_change_between_recordings_may_be_one_of_a_calibration() -> None:
+    """The last recording's force is four hundredths too large: no moment of a crack is seen."""
+    recordings = []
+    for k, (frequency, amplitude) in enumerate(((0.7, 4.0), (1.6, 6.0), (2.9, 5.0))):
+        rng = np.random.default_rng([k, 78])
+        t = np.arange(3000) / 200
+        x = amplitude * np.clip(t, 0, 1) * np.clip(15 - t, 0, 1) * np.sin(2 * np.pi * frequency * t)
+        v = np.gradient(x, t)
+        force = (1.04 if k == 2 else 1.0) * (10 * x + 0.3 * v) + 0.3 * rng.normal(size=t.size)
+        recordings.append(mre_core.Recording(t, x, force, velocity=v, name=f"{frequency} Hz"))
+    found = mre_core.diagnose(recordings, base="kelvin_voigt", seed=1)
+    assert found.verdict in ("partly_explained", "unexplained"), found
+    assert all("t_0" in e.at_the_end for e in found.effects if e.id == "stiffness_jump")
+    assert not found.effects or "a calibration" in str(found)

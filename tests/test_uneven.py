@@ -38,6 +38,24 @@ def test_noise_alone_is_adequate(seed: int) -> None:
     assert beating(0.0, seed).verdict == "adequate"
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_noise_that_grows_with_the_speed_is_adequate_and_told(seed: int) -> None:
+    """As that of a sensor may: its size follows the motion, and its neighbours do not go together."""
+    rng = np.random.default_rng([seed, 43])
+    recordings = []
+    for frequency, amplitude in ((0.7, 4.0), (1.6, 6.0), (2.9, 5.0)):
+        t = np.arange(3000) / 200
+        x = amplitude * np.clip(t, 0, 1) * np.sin(2 * np.pi * frequency * t)
+        v = np.gradient(x, t)
+        coloured = lfilter([0.8], [1, -0.6], rng.normal(size=t.size))
+        force = 10 * x + 0.3 * v + 0.4 * (1 + 2 * np.abs(v) / np.abs(v).max()) * coloured
+        recordings.append(Recording(t, x, force, velocity=v, name=f"{frequency} Hz"))
+    found = diagnose(recordings, base="kelvin_voigt", seed=1)
+    assert found.verdict == "adequate", found
+    assert found.p_values["even"] < 1e-6
+    assert "The noise is larger at some displacements" in str(found)
+
+
 def test_clipped_samples_are_no_quiet_noise() -> None:
     """Noise before the channel that clips: of a clipped sample nothing is left."""
     recordings = []

@@ -176,7 +176,12 @@ def diagnose(
         ),
         absorbed_detail=hidden_effects(raw),
         next_test=next_test_of(raw),
-        p_values={"base": raw["p_base"], "rest": raw["p_rest"], "effects": dict(raw["candidates"])},
+        p_values={
+            "base": raw["p_base"],
+            "rest": raw["p_rest"],
+            "even": raw["p_even"],
+            "effects": dict(raw["candidates"]),
+        },
         base_model=base_model,
         model=final,
         recordings=tuple(names),

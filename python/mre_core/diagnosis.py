@@ -118,7 +118,8 @@ class Diagnosis:
     """Effects that these recordings would hide, up to which size, and why."""
     next_test: Mapping[str, Any] | None
     p_values: Mapping[str, Any]
-    """Of the base model's mismatch, of the final model's, and of each effect beside the final model."""
+    """Of the base model's mismatch, of the final model's (`rest`), of a noise whose size does not follow the
+    motion (`even`), and of each effect beside the final model."""
     base_model: Model
     model: Model
     """Base model and effects, fitted together on everything."""
@@ -157,9 +158,11 @@ class Diagnosis:
         told = [words.verdict(said, self.base, named, asdict(self.fit))]
         if ends:
             told.append(words.at_the_end(ends))
+        if self.verdict in ("adequate", "missing_physics"):
+            told.append(words.noise(self.p_values.get("even")))
         if self.refitted is not None:
             told.append(words.refitted(self.refitted.rms_as_given, self.refitted.rms_fitted))
-        return " ".join(told)
+        return " ".join(filter(None, told))
 
     def to_dict(self) -> dict[str, Any]:
         """Content of ``diagnosis.json``."""

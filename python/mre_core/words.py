@@ -37,12 +37,18 @@ def verdict(kind: str, base: str, effects: Sequence[str], fit: Mapping[str, Any]
     }[kind].replace("with it", "with them" if len(effects) > 1 else "with it")
 
 
+BETWEEN = (
+    " A change whose moment may lie between two recordings may be one of the mounting or of a calibration."
+)
+
+
 def at_the_end(effects: Mapping[str, Sequence[str]]) -> str:
     """Say which parameters the recordings press to the end of their range, by effect."""
     each = "; ".join(f"{listed(names)} of {effect}" for effect, names in effects.items() if names)
     return (
         f"At the end of its range, or not to be told from nothing: {each}. The name is the nearest one of the"
         " catalogue, and what is there may be another effect."
+        + (BETWEEN if any("t_0" in names for names in effects.values()) else "")
     )
 
 
@@ -153,6 +159,9 @@ def hidden(detail: Mapping[str, Any], limit: str) -> str:
 
 
 PLAINLY_UNEVEN = 1e-3
+WHERE_UNEVEN = "at some displacements, speeds or times than at others"
+LEAST_APART = 0.01
+"""Ratios of forces that differ by less are not told."""
 """Chance below which the size of a residual is said to follow the motion."""
 
 _ON = {
@@ -189,13 +198,20 @@ def unknown(found: Mapping[str, Any], nearest: Sequence[str]) -> str:
     )
 
 
+def noise(p_even: float | None) -> str:
+    """Say that the noise follows the motion, where it plainly does."""
+    if p_even is None or p_even > PLAINLY_UNEVEN:
+        return ""
+    where = f"The noise is larger {WHERE_UNEVEN}"
+    return f"{where}, as that of a sensor may be: neighbouring samples do not go together."
+
+
 def _uneven(found: Mapping[str, Any]) -> str:
     """Say that what looks like noise follows the motion, where it plainly does."""
     p_even = found.get("p_even")
     if p_even is None or p_even > PLAINLY_UNEVEN:
         return ""
-    where = "at some displacements, speeds or times than at others"
-    return f" What looks like noise is larger {where}, as noise is not."
+    return f" What looks like noise is larger {WHERE_UNEVEN}."
 
 
 def _by_recording(found: Mapping[str, Any]) -> str:
@@ -204,6 +220,8 @@ def _by_recording(found: Mapping[str, Any]) -> str:
     if len(ratios) < 2 or "recording" not in {d["on"] for d in found["depends_on"]}:
         return ""
     low, high = min(ratios, key=lambda n: ratios[n]), max(ratios, key=lambda n: ratios[n])
+    if ratios[high] - ratios[low] < LEAST_APART:
+        return ""
     return (
         f" Something that is not recorded changes from recording to recording: the measured force is"
         f" {ratios[low]:.2f} times the model's in '{low}' and {ratios[high]:.2f} times in '{high}'."
@@ -215,8 +233,8 @@ EXCITATIONS = {
     "fast_sine": "a fast sine of {amplitude_mm:.3g} mm at {frequency_hz:.3g} Hz",
     "rising_and_falling_amplitudes": "sines of {frequency_hz:.3g} Hz with amplitudes that rise to"
     " {amplitude_mm:.3g} mm and fall again, with rests",
-    "sine_before_and_after_a_rest": "a sine of {amplitude_mm:.3g} mm at {frequency_hz:.3g} Hz before and after a"
-    " rest, each a third of the time",
+    "sine_before_and_after_a_rest": "a sine of {amplitude_mm:.3g} mm at {frequency_hz:.3g} Hz before and"
+    " after a rest, each a third of the time",
     "sweep": "a sweep up to {frequency_hz:.3g} Hz",
     "hold": "a step to {amplitude_mm:.3g} mm, held",
     "multisine": "an odd random-phase multisine up to {frequency_hz:.3g} Hz",

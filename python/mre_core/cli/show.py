@@ -60,6 +60,8 @@ def print_diagnosis(found: "Diagnosis") -> None:
                 adds = f" (a further effect would add {100 * effect.lack_of_fit:.2g} % of the force)"
                 left = adds if effect.lack_of_fit else ""
                 out.print(f"{effect.id}: its law is not exactly the catalogue's{left}")
+    if found.unknown is not None:
+        out.print(escape(found.unknown["statement"]))
     for place in found.where[:3]:
         out.print(f"where: {escape(place['what'])}")
     if found.absorbed:

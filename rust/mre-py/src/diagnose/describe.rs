@@ -40,6 +40,7 @@ pub(super) fn describe(found: &Diagnosis, base: &Base, own: usize, after: &After
         "noise_rms": judgement.map(|j| j.noise_rms),
         "p_base": evidence.map(|e| e.p_base),
         "p_rest": evidence.map(|e| e.p_rest),
+        "p_even": evidence.map(|e| e.p_even),
         "rest_share": evidence.map(|e| e.share),
         "lack_of_fit_N": evidence.map(|e| e.lack_of_fit),
         "approximate": evidence.is_some_and(|e| e.approximate()),

@@ -52,6 +52,7 @@ mod run;
 mod screen;
 mod search;
 mod settings;
+mod sizes;
 mod slow;
 mod splits;
 mod starts;

@@ -21,7 +21,7 @@ pub(super) fn any_strained(named: &Named, data: Data, mut places: Range<usize>) 
 }
 
 /// Symbols of an effect's parameters that the recordings press to the end of their range, or without which the law is
-/// that of another effect and which cannot be told from nothing.
+/// that of another effect and which cannot be told from nothing, or of a moment that may lie between two recordings.
 pub fn strained<'e>(assembly: &Assembly, estimates: &'e Estimates, place: usize) -> Vec<&'e str> {
     let effect = assembly.effects()[place];
     // A hum goes on whatever moves: it stands for no other effect.
@@ -36,12 +36,18 @@ pub fn strained<'e>(assembly: &Assembly, estimates: &'e Estimates, place: usize)
     // The interval of one at its end is open on both sides: as much of it as there can be is not nothing.
     let shapeless =
         |(e, p): &(&Estimate, &Parameter)| e.pressed || (e.value < p.upper && nothing(e, p.lower));
-    // A change at any moment is no change at one.
+    // A change at any moment is no change at one, and between two recordings more changes than the device.
     let values: Vec<f64> = estimates.shapes[shapes.clone()].iter().map(|e| e.value).collect();
-    let moment = effect.moment(&values).map(|(from, _)| from);
-    let adrift = |(e, p): &(&Estimate, &Parameter)| {
-        moment == Some(e.value) && e.high - e.low > ADRIFT * (p.upper - p.lower)
+    let moment = effect.moment(&values);
+    let campaign = assembly.campaign();
+    let begins = |from: f64, to: f64| {
+        (0..campaign.recordings().len()).any(|r| (from..=to).contains(&campaign.before(r)))
     };
-    let spoken = ends.filter(|end| shapeless(end) || adrift(end)).map(|(e, _)| e);
+    let no_moment = |(e, p): &(&Estimate, &Parameter)| {
+        moment.filter(|(from, _)| *from == e.value).is_some_and(|(_, to)| {
+            e.high - e.low > ADRIFT * (p.upper - p.lower) || begins(e.low, e.high.max(to))
+        })
+    };
+    let spoken = ends.filter(|end| shapeless(end) || no_moment(end)).map(|(e, _)| e);
     absent.chain(spoken).map(|e| e.name.as_str()).collect()
 }

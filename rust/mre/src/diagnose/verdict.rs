@@ -55,6 +55,8 @@ pub struct Evidence {
     pub p_base: f64,
     /// Chance of the final model's.
     pub p_rest: f64,
+    /// Chance that the noise is of even size over the motion: no evidence of missing physics.
+    pub p_even: f64,
     /// Stated chance of a false alarm.
     pub false_alarm: f64,
     /// Share of the rest in all that can be explained, in squared standard deviations.
@@ -117,7 +119,7 @@ impl Evidence {
         let catalogue = by_effect(&named.scores);
         let holm = catalogue.iter().map(|(_, p)| *p).fold(1.0, f64::min) * catalogue.len().max(1) as f64;
         let of_places = wandering.p_value.min(odd.p_value);
-        let any = OF_ANY * rest.cautious().min(smooth).min(of_places).min(uneven.p_value);
+        let any = OF_ANY * rest.cautious().min(smooth).min(of_places).min(uneven.linked);
         let p_rest = if nothing_left { 1.0 } else { (WAYS * any.min(holm)).min(1.0) };
         let gain = named.next.as_ref().map_or(0.0, |n| (named.fitted.left - n.fitted.left).max(0.0));
         let swallowed = if uneven.p_value < PLAINLY_UNEVEN { uneven.swallowed } else { 0.0 };
@@ -127,6 +129,7 @@ impl Evidence {
         Self {
             p_base: first.p_value,
             p_rest,
+            p_even: uneven.p_value,
             false_alarm,
             share,
             left: if significant { left } else { 0.0 },
