@@ -72,7 +72,7 @@ def check_contract(content: dict[str, Any]) -> None:
     assert isinstance(content["seed"], int)
     assert content["interrupted"] is False
     assert content["version"] == mre_core.__version__
-    assert set(content["p_values"]) == {"base", "rest", "effects"}
+    assert set(content["p_values"]) == {"base", "rest", "even", "effects"}
 
 
 def test_a_branch_is_found(relaxing: Diagnosis) -> None:
