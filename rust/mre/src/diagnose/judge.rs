@@ -100,6 +100,7 @@ fn alone<'a>(
     let wandering = last.as_ref().map_or(Mismatch::NONE, Null::wandering);
     let odd = last.as_ref().map_or(Mismatch::NONE, Null::odd_recording);
     let uneven = last.as_ref().and_then(Null::uneven).unwrap_or(Uneven::NONE);
+    let linked = last.as_ref().map_or(1.0, Null::linked);
     let own = begun.assembly.effects().len()..named.assembly.effects().len();
     let against = match any_strained(&named, data, own) {
         _ if surpassed => Against::Surpassed,
@@ -113,6 +114,7 @@ fn alone<'a>(
         wandering,
         odd,
         uneven,
+        linked,
         explained,
         change,
         noise: named.noise_rms(data),

@@ -29,15 +29,13 @@ const QUIET: f64 = 0.1;
 pub(super) struct Uneven {
     /// Chance of as much under a noise of even size.
     pub(super) p_value: f64,
-    /// Chance under a noise of any size that neighbours go together as much, for a decision.
-    pub(super) linked: f64,
     /// Squared standard deviations that the noise has swallowed.
     pub(super) swallowed: f64,
 }
 
 impl Uneven {
     /// No test could be made.
-    pub(super) const NONE: Self = Self { p_value: 1.0, linked: 1.0, swallowed: 0.0 };
+    pub(super) const NONE: Self = Self { p_value: 1.0, swallowed: 0.0 };
 }
 
 /// How squares follow the motion, all recordings together.
@@ -66,32 +64,36 @@ impl Null<'_> {
     ///
     /// A noise that a mismatch hides is not known, and of clipped samples nothing is left: there is no test.
     pub(super) fn uneven(&self) -> Option<Uneven> {
-        if self.noise().hidden() || self.assembly().clips(&self.shapes()) {
+        if !self.knows_its_noise() {
             return None;
         }
         let tried = TOGETHER.iter().filter_map(|together| self.followed(*together));
         let best = tried.reduce(|best, next| if next.p_value < best.p_value { next } else { best });
         best.map(|best| Uneven {
             p_value: (best.p_value * TOGETHER.len() as f64).min(1.0),
-            linked: self.linked(),
             swallowed: self.swallowed(&best),
         })
     }
 
-    /// Whether products of neighbours follow the motion.
-    fn linked(&self) -> f64 {
+    /// Chance, under a noise of any size, that products of neighbours follow the motion as much: for a decision.
+    pub(super) fn linked(&self) -> f64 {
+        if !self.knows_its_noise() {
+            return 1.0;
+        }
         let of = |together: usize| {
-            let nothing = || DMatrix::zeros(COLUMNS, COLUMNS);
-            let (mut gram, mut right) = (nothing(), DVector::zeros(COLUMNS));
-            for own in self.sizes(together, &|some| products_of_neighbours(some)) {
+            let (mut gram, mut right) = (DMatrix::zeros(COLUMNS, COLUMNS), DVector::zeros(COLUMNS));
+            for own in self.sizes(together, &products_of_neighbours) {
                 gram += own.covariance_of_any_size();
                 right += own.right();
             }
-            let squares: Vec<f64> = (0..COLUMNS).map(|i| gram[(i, i)]).collect();
-            let chosen: Vec<usize> = (0..COLUMNS).collect();
-            Projected::of(&gram, &right, &squares, &chosen).mismatch().cautious()
+            chance(&gram, &right)
         };
         (LINKED.len() as f64 * LINKED.into_iter().map(of).fold(1.0, f64::min)).min(1.0)
+    }
+
+    /// True where what is left is noise that nothing hides, of all samples.
+    fn knows_its_noise(&self) -> bool {
+        !self.noise().hidden() && !self.assembly().clips(&self.shapes())
     }
 
     /// How means over so many samples follow the motion; one recording after the other, for the memory's sake.
@@ -103,14 +105,7 @@ impl Null<'_> {
             gram += own.covariance();
             right += own.right();
         }
-        let squares: Vec<f64> = (0..COLUMNS).map(|i| gram[(i, i)]).collect();
-        let chosen: Vec<usize> = (0..COLUMNS).collect();
-        (gram.trace() > 0.0).then(|| Followed {
-            together,
-            p_value: Projected::of(&gram, &right, &squares, &chosen).mismatch().cautious(),
-            plain,
-            right,
-        })
+        (gram.trace() > 0.0).then(|| Followed { together, p_value: chance(&gram, &right), plain, right })
     }
 
     /// Squared standard deviations in what is left beyond those of where the motion leaves least.
@@ -126,6 +121,13 @@ impl Null<'_> {
         let share = 1.0 - quiet.max(0.0);
         if share > LEAST { share * sizes.len() as f64 } else { 0.0 }
     }
+}
+
+/// Chance that all columns follow as much, given the covariance of their products with sizes.
+fn chance(covariance: &DMatrix<f64>, right: &DVector<f64>) -> f64 {
+    let squares: Vec<f64> = (0..COLUMNS).map(|i| covariance[(i, i)]).collect();
+    let chosen: Vec<usize> = (0..COLUMNS).collect();
+    Projected::of(covariance, right, &squares, &chosen).mismatch().cautious()
 }
 
 /// Square of the mean of whitened samples, of unit mean under white noise.

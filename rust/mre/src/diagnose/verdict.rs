@@ -100,6 +100,8 @@ pub(super) struct Tests {
     pub(super) odd: Mismatch,
     /// The size of what is left, over the motion.
     pub(super) uneven: Uneven,
+    /// Chance that its neighbouring samples go together over the motion.
+    pub(super) linked: f64,
     /// Squared standard deviations that the effects explain.
     pub(super) explained: f64,
     /// Rms in N of the force that the best further candidate would add.
@@ -114,12 +116,12 @@ pub(super) struct Tests {
 
 impl Evidence {
     pub(super) fn new(tests: &Tests, named: &Named, plain: bool, false_alarm: f64) -> Self {
-        let Tests { first, rest, smooth, wandering, odd, uneven, .. } = *tests;
+        let Tests { first, rest, smooth, wandering, odd, uneven, linked, .. } = *tests;
         let Tests { explained, change, noise, against, nothing_left, .. } = *tests;
         let catalogue = by_effect(&named.scores);
         let holm = catalogue.iter().map(|(_, p)| *p).fold(1.0, f64::min) * catalogue.len().max(1) as f64;
         let of_places = wandering.p_value.min(odd.p_value);
-        let any = OF_ANY * rest.cautious().min(smooth).min(of_places).min(uneven.linked);
+        let any = OF_ANY * rest.cautious().min(smooth).min(of_places).min(linked);
         let p_rest = if nothing_left { 1.0 } else { (WAYS * any.min(holm)).min(1.0) };
         let gain = named.next.as_ref().map_or(0.0, |n| (named.fitted.left - n.fitted.left).max(0.0));
         let swallowed = if uneven.p_value < PLAINLY_UNEVEN { uneven.swallowed } else { 0.0 };
