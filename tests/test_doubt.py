@@ -75,6 +75,14 @@ def test_one_frequency_hides_inertia_and_a_test_is_proposed(one_frequency: mre_c
     assert worth[0] >= max(worth) - 0.1
 
 
+@pytest.mark.parametrize("cut", [3.0, 3.1])
+def test_one_frequency_hides_a_springpot_wherever_the_recordings_are_cut(cut: float) -> None:
+    """In steady motion it is a spring and a dashpot; its memory of what was before is no trace of it."""
+    steady = [record(1.0, amplitude, seed=i).cut(cut, 11.0) for i, amplitude in enumerate((1.0, 2.0, 4.0))]
+    found = mre_core.diagnose(steady, "sinh", seed=1)
+    assert "fractional_viscoelasticity" in found.absorbed
+
+
 def test_the_command_keeps_its_limits(one_frequency: mre_core.Diagnosis) -> None:
     assert one_frequency.next_test is not None
     signal = command(one_frequency.next_test, stroke=1.5, speed=10.0, duration=20.0)

@@ -56,7 +56,7 @@ fn steady_part(displacement: &[f64]) -> Option<(usize, usize)> {
 }
 
 /// Samples at which the displacement turns by more than a tenth of its range.
-fn reversals(displacement: &[f64]) -> Vec<usize> {
+pub(crate) fn reversals(displacement: &[f64]) -> Vec<usize> {
     let (low, high) = extent(displacement);
     let threshold = 0.1 * (high - low);
     let mut found = Vec::new();

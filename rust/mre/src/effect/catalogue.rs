@@ -22,6 +22,7 @@ use super::mains::Mains;
 use super::maxwell::Maxwell;
 use super::mullins::{Mullins, Softening};
 use super::on_part::OnPart;
+use super::own_share::OwnShare;
 use super::payne::{Amplitude, Payne};
 use super::pinched::Pinched;
 use super::pinching::Pinching;
@@ -151,6 +152,26 @@ pub const CATALOGUE: &[&dyn Effect] = &[
         "dissipated power, no cooling, hysteretic force",
         "k_w -> k_w (1 - s T/T_max), T the largest integral of F v so far",
     ),
+    &OwnShare {
+        law: &Thermal { by: Work::Passed, exponential: false, whole: false },
+        name: "damping by a share of its own",
+        equation: "k -> k (1 - s T/T_r), c -> c (1 - r s T/T_r), dT/dt = |F v| - T/tau",
+    },
+    &OwnShare {
+        law: &Adiabatic { by: Work::Passed, whole: false },
+        name: "no cooling, damping by a share of its own",
+        equation: "k -> k (1 - s T/T_max), c -> c (1 - r s T/T_max), dT/dt = |F v|",
+    },
+    &OwnShare {
+        law: &Thermal { by: Work::Net, exponential: false, whole: false },
+        name: "dissipated power, damping by a share of its own",
+        equation: "k -> k (1 - s T/T_r), c -> c (1 - r s T/T_r), dT/dt = F v - T/tau",
+    },
+    &OwnShare {
+        law: &Adiabatic { by: Work::Net, whole: false },
+        name: "dissipated power, no cooling, damping by a share of its own",
+        equation: "k -> k (1 - s T/T_max), c -> c (1 - r s T/T_max), T the largest integral of F v so far",
+    },
     &Degradation { by: Progress::Path, form: Form::Steady, whole: false },
     &Degradation { by: Progress::Path, form: Form::Steady, whole: true },
     &Degradation { by: Progress::Path, form: Form::Saturating, whole: false },
@@ -215,6 +236,21 @@ pub const CATALOGUE: &[&dyn Effect] = &[
         "dissipated energy, saturating, hysteretic force",
         "k_w -> k_w (1 - s (1 - exp(-E/E_c))), E the largest integral of F v so far",
     ),
+    &OwnShare {
+        law: &Degradation { by: Progress::Path, form: Form::Steady, whole: false },
+        name: "path, damping by a share of its own",
+        equation: "k -> k (1 - s P/P_max), c -> c (1 - r s P/P_max), P the path travelled",
+    },
+    &OwnShare {
+        law: &Degradation { by: Progress::Energy(Work::Passed), form: Form::Steady, whole: false },
+        name: "energy, damping by a share of its own",
+        equation: "k -> k (1 - s E/E_max), c -> c (1 - r s E/E_max), E the integral of |F v|",
+    },
+    &OwnShare {
+        law: &Degradation { by: Progress::Energy(Work::Net), form: Form::Steady, whole: false },
+        name: "dissipated energy, damping by a share of its own",
+        equation: "k -> k (1 - s E/E_max), c -> c (1 - r s E/E_max), E the largest integral of F v so far",
+    },
     &Wearing::Strength,
     &Wearing::Stiffness,
     &Wearing::Both,

@@ -37,7 +37,7 @@ impl Factors {
 }
 
 /// No factor falls below this.
-const LEAST_KEPT: f64 = 0.05;
+pub(super) const LEAST_KEPT: f64 = 0.05;
 
 impl Factors {
     /// The factor that is kept of the stiffness, or of the whole force.

@@ -8,13 +8,15 @@
 //! | tau | time at which the springpot takes over from the spring | s | two samples to the longest recording |
 //!
 //! The relaxation kernel is a sum of exponentials, by the trapezoidal rule for its spectrum in the logarithm
-//! of the rate. Rates beyond the sum act as a dashpot (fast) or a spring (slow), in closed form.
+//! of the rate. Rates beyond the sum act as a dashpot (fast) or a spring (slow), in closed form. A recording that is cut from a
+//! steady motion starts with its memory, any other from rest.
 //! Reference: Koeller, J. Appl. Mech. 51 (1984) 299; Mainardi, Fractional Calculus and Waves in Linear
 //! Viscoelasticity, 2010; Beylkin and Monzon, Appl. Comput. Harmon. Anal. 28 (2010) 131.
 //! Known limit: over less than about 1.5 decades of frequency it looks like one Maxwell branch.
 
 use std::f64::consts::PI;
 
+use super::before::Before;
 use super::maxwell::branches;
 use super::{About, Effect, Scene, Sizes, ideal_below, order_within, orders, positive, within};
 use crate::parameter::Parameter;
@@ -33,7 +35,7 @@ pub(super) enum Fractional {
     Maxwell,
 }
 
-/// Relaxation from rest with the spectrum `weight(rate)` over the logarithm of the rate; `beyond(low, high)`
+/// Relaxation, from rest or steady motion, with the spectrum `weight(rate)` over the logarithm of the rate; `beyond(low, high)`
 /// are its integral below a rate and the integral of `weight(rate) / rate` above one.
 fn relaxation(
     scene: &Scene,
@@ -45,14 +47,15 @@ fn relaxation(
     let count = ((highest / lowest).ln() / spacing).ceil() as usize + 1;
     let rate = |j: f64| lowest * (spacing * j).exp();
     let (spring, dashpot) = beyond(rate(-0.5), rate(count as f64 - 0.5));
-    let x0 = scene.displacement[0];
+    // A spring that relaxes more slowly than the recording has relaxed to where the motion was before.
+    let relaxed_at = Before::of(scene).map_or(scene.displacement[0], |before| before.middle);
     let rates = (0..count).map(|j| rate(j as f64));
     let relaxed = branches(scene, rates.map(|rate| (1.0 / rate, spacing * weight(rate))));
     let motion = scene.displacement.iter().zip(scene.velocity);
-    motion.zip(relaxed).map(|((x, v), z)| spring * (x - x0) + dashpot * v + z).collect()
+    motion.zip(relaxed).map(|((x, v), z)| spring * (x - relaxed_at) + dashpot * v + z).collect()
 }
 
-/// Caputo derivative of order `a` of the displacement, from rest.
+/// Caputo derivative of order `a` of the displacement.
 fn derivative(scene: &Scene, a: f64) -> Vec<f64> {
     let scale = (PI * a).sin() / PI;
     relaxation(

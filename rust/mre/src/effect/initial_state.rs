@@ -7,8 +7,8 @@ use super::{About, Effect, Scene, Sizes, orders, signed};
 use crate::parameter::Parameter;
 use crate::recording::Recording;
 
-/// Number of decay times: evenly in the logarithm, as the relaxation times of the effects with memory.
-const DECAYS: usize = 6;
+/// Number of decay times, evenly in the logarithm: enough that a springpot's memory of a cycle is a sum of them.
+const DECAYS: usize = 8;
 /// A recording starts at rest where its first speed and displacement are below this share of its largest.
 const REST: f64 = 0.05;
 
@@ -21,7 +21,7 @@ pub fn starts_in_motion(recording: &Recording) -> bool {
     in_motion(recording.displacement(), recording.velocity())
 }
 
-fn in_motion(x: &[f64], v: &[f64]) -> bool {
+pub(super) fn in_motion(x: &[f64], v: &[f64]) -> bool {
     let share = |series: &[f64], first: f64| {
         let far = series.iter().fold(0.0_f64, |far, v| far.max(v.abs()));
         first.abs() > REST * far
@@ -58,7 +58,7 @@ impl Effect for InitialState {
             return vec![vec![0.0; scene.len()]; DECAYS]; // its states are those of rest
         }
         let start = scene.time[0];
-        let times = orders(2.0 * scene.sizes.step, scene.sizes.duration / 3.0, DECAYS);
+        let times = orders(0.5 * scene.sizes.step, scene.sizes.duration / 3.0, DECAYS);
         times.iter().map(|d| scene.time.iter().map(|t| (-(t - start) / d).exp()).collect()).collect()
     }
 

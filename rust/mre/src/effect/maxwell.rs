@@ -9,9 +9,10 @@
 //! Reference: Ferry, Viscoelastic Properties of Polymers, 1980.
 //! Known limit: at one steady frequency a branch is part of k0 and c0.
 
+use super::before::Before;
 use super::operators::lag;
 use super::{About, Effect, Scene, Sizes, order_within, orders, positive};
-use crate::kernel::relaxation::lags;
+use crate::kernel::relaxation::{Lag, lags};
 use crate::parameter::Parameter;
 
 /// One branch or two.
@@ -32,9 +33,11 @@ pub(super) fn branch(scene: &Scene, tau: f64) -> Vec<f64> {
     z
 }
 
-/// `sum w z` of `z' = v - z / tau` from rest for pairs `(tau, w)`.
+/// `sum w z` of `z' = v - z / tau` for pairs `(tau, w)`, from rest or from the steady motion that the recording starts in.
 pub(super) fn branches(scene: &Scene, of: impl Iterator<Item = (f64, f64)>) -> Vec<f64> {
-    let of: Vec<(f64, f64)> = of.map(|(tau, w)| (tau, w * tau)).collect();
+    let before = Before::of(scene);
+    let lagged = |tau| before.map_or(0.0, |before| before.lagged(tau));
+    let of: Vec<Lag> = of.map(|(tau, w)| Lag { tau, weight: w * tau, start: lagged(tau) }).collect();
     lags(scene.time, scene.velocity, &of)
 }
 

@@ -9,6 +9,7 @@
 mod adiabatic;
 mod asymmetric;
 mod backlash;
+mod before;
 mod catalogue;
 mod clipping;
 mod coulomb;
@@ -32,6 +33,7 @@ mod maxwell;
 mod mullins;
 mod on_part;
 mod operators;
+mod own_share;
 mod payne;
 mod pinched;
 mod pinching;

@@ -4,6 +4,7 @@ mod channels;
 mod columns;
 mod every_law;
 mod softening;
+mod steady;
 
 use std::f64::consts::TAU;
 use std::sync::OnceLock;

@@ -17,9 +17,20 @@ const ROUNDED: f64 = 4.0;
 /// Keeps a state that fades away from denormal numbers, which are slow; of no size beside any input.
 const NOTHING: f64 = 1e-250;
 
-/// `sum w y` of `y' = (u - y) / tau` from rest for pairs `(tau, w)`: exact for the cubic spline through evenly spaced
+/// One of many lags, `y' = (u - y) / tau`.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Lag {
+    /// s.
+    pub(crate) tau: f64,
+    /// Of `y` in the sum.
+    pub(crate) weight: f64,
+    /// `y` at the first sample.
+    pub(crate) start: f64,
+}
+
+/// Weighted sum of lags: exact for the cubic spline through evenly spaced
 /// samples. A line between them would cost a fast branch a hundredth of its force at twenty samples a cycle.
-pub(crate) fn lags(time: &[f64], input: &[f64], of: &[(f64, f64)]) -> Vec<f64> {
+pub(crate) fn lags(time: &[f64], input: &[f64], of: &[Lag]) -> Vec<f64> {
     let mut sum = vec![0.0; input.len()];
     let bend = bends(time, input);
     for eight in of.chunks(WIDE) {
@@ -115,27 +126,22 @@ impl<N: ComplexField<RealField = f64> + Copy> Step<N> {
 for_every_isa!(
     add,
     add_generic,
-    (time: &[f64], input: &[f64], bend: &[f64], of: &[(f64, f64)], sum: &mut [f64]) -> ()
+    (time: &[f64], input: &[f64], bend: &[f64], of: &[Lag], sum: &mut [f64]) -> ()
 );
 
 #[inline(always)]
-fn add_generic<const FUSED: bool>(
-    time: &[f64],
-    input: &[f64],
-    bend: &[f64],
-    of: &[(f64, f64)],
-    sum: &mut [f64],
-) {
+fn add_generic<const FUSED: bool>(time: &[f64], input: &[f64], bend: &[f64], of: &[Lag], sum: &mut [f64]) {
     let mut y = [0.0; WIDE];
     let mut weight = [0.0; WIDE];
-    for (l, (_, w)) in of.iter().enumerate() {
-        weight[l] = *w;
+    for (l, lag) in of.iter().enumerate() {
+        (weight[l], y[l]) = (lag.weight, lag.start);
+        sum[0] += lag.weight * lag.start;
     }
     for (from, to) in runs(time) {
         let (mut decay, mut early, mut late) = ([0.0; WIDE], [0.0; WIDE], [0.0; WIDE]);
         let mut bent = [[0.0; WIDE]; 2];
-        for (l, (tau, _)) in of.iter().enumerate() {
-            let step = Step::over((time[from] - time[from - 1]) / tau);
+        for (l, lag) in of.iter().enumerate() {
+            let step = Step::over((time[from] - time[from - 1]) / lag.tau);
             (decay[l], early[l], late[l]) = (step.decay, step.early, step.late);
             (bent[0][l], bent[1][l]) = (step.bent[0], step.bent[1]);
         }
@@ -167,11 +173,17 @@ mod tests {
             .map(|i| if i < 100 { f64::from(i) * 0.01 } else { 1.0 + f64::from(i - 100) * 0.02 })
             .collect();
         let input: Vec<f64> = time.iter().map(|t| (3.0 * t).sin() + 0.2).collect();
-        let of: Vec<(f64, f64)> = (0..11).map(|k| (0.01 * 1.7_f64.powi(k), 1.0 + f64::from(k))).collect();
+        let of: Vec<Lag> = (0..11)
+            .map(|k| Lag {
+                tau: 0.01 * 1.7_f64.powi(k),
+                weight: 1.0 + f64::from(k),
+                start: 0.1 * f64::from(k),
+            })
+            .collect();
         let found = lags(&time, &input, &of);
-        let each: Vec<Vec<f64>> = of.iter().map(|(tau, _)| lag(&time, &input, *tau, 0.0)).collect();
+        let each: Vec<Vec<f64>> = of.iter().map(|l| lag(&time, &input, l.tau, l.start)).collect();
         for i in 0..time.len() {
-            let wanted: f64 = each.iter().zip(&of).map(|(y, (_, w))| w * y[i]).sum();
+            let wanted: f64 = each.iter().zip(&of).map(|(y, l)| l.weight * y[i]).sum();
             assert!((found[i] - wanted).abs() < 1e-12 * 100.0, "{i}");
         }
     }

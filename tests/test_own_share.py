@@ -1,0 +1,37 @@
+"""Heat that takes more of the damping than of the stiffness is one effect, not heat and another."""
+
+import mre_core
+import numpy as np
+import pytest
+from missing import campaign, with_series
+from numpy.typing import NDArray
+
+COOLING = 8.0
+"""s."""
+
+
+def heated(r: mre_core.Recording, of_stiffness: float, of_damping: float) -> mre_core.Recording:
+    """The device of `missing` loses shares of its stiffness and damping to its own heat."""
+    x, v = r.displacement, r.velocity
+    stored, viscous = 8 * x + 10 * np.sinh(0.3 * x), 0.4 * v
+    warm = temperature(r.time, (stored + viscous) * v)
+    return with_series(r, force=np.asarray(r.force) - warm * (of_stiffness * stored + of_damping * viscous))
+
+
+def temperature(time: NDArray[np.float64], power: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Excess of a device that cools, one for 2 J."""
+    warm = np.zeros_like(time)
+    for i, h in enumerate(np.diff(time)):
+        kept = np.exp(-h / COOLING)
+        warm[i + 1] = kept * warm[i] + 0.5 * h * (kept * power[i] + power[i + 1]) / 2000.0
+    return np.maximum(warm, 0.0)
+
+
+@pytest.mark.parametrize("over", [0.0, 1.0, 2.0])
+def test_heat_is_named_alone_whatever_it_takes_of_the_damping(over: float) -> None:
+    found = mre_core.diagnose([heated(r, 0.1, 0.1 * over) for r in campaign(0.0)], "sinh", seed=1)
+    assert found.verdict == "missing_physics"
+    (effect,) = found.effects
+    assert "thermal_softening" in {effect.id, *effect.indistinguishable_from}
+    if over == 2.0:
+        assert effect.parameters["r"].value == pytest.approx(over, rel=0.2)
