@@ -48,7 +48,8 @@ fn fading(scene: &Scene, shortest: f64, spectrum: impl Fn(f64) -> f64) -> Vec<f6
     let count = (A_DECADE * decades).ceil() as usize + 1;
     let weight = decades / (count - 1) as f64;
     let taus = orders(shortest, shortest * 10.0_f64.powf(decades), count);
-    branches(scene, taus.into_iter().map(|tau| (tau, weight * spectrum(tau))))
+    // From rest: a slow spectrum with an unknown past would be slow noise.
+    branches(scene, None, taus.into_iter().map(|tau| (tau, weight * spectrum(tau))))
 }
 
 impl Creep {

@@ -48,9 +48,10 @@ fn relaxation(
     let rate = |j: f64| lowest * (spacing * j).exp();
     let (spring, dashpot) = beyond(rate(-0.5), rate(count as f64 - 0.5));
     // A spring that relaxes more slowly than the recording has relaxed to where the motion was before.
-    let relaxed_at = Before::of(scene).map_or(scene.displacement[0], |before| before.middle);
+    let before = Before::of(scene);
+    let relaxed_at = before.map_or(scene.displacement[0], |before| before.middle);
     let rates = (0..count).map(|j| rate(j as f64));
-    let relaxed = branches(scene, rates.map(|rate| (1.0 / rate, spacing * weight(rate))));
+    let relaxed = branches(scene, before, rates.map(|rate| (1.0 / rate, spacing * weight(rate))));
     let motion = scene.displacement.iter().zip(scene.velocity);
     motion.zip(relaxed).map(|((x, v), z)| spring * (x - relaxed_at) + dashpot * v + z).collect()
 }

@@ -33,9 +33,12 @@ pub(super) fn branch(scene: &Scene, tau: f64) -> Vec<f64> {
     z
 }
 
-/// `sum w z` of `z' = v - z / tau` for pairs `(tau, w)`, from rest or from the steady motion that the recording starts in.
-pub(super) fn branches(scene: &Scene, of: impl Iterator<Item = (f64, f64)>) -> Vec<f64> {
-    let before = Before::of(scene);
+/// `sum w z` of `z' = v - z / tau` for pairs `(tau, w)`, from rest or from a steady motion before.
+pub(super) fn branches(
+    scene: &Scene,
+    before: Option<Before>,
+    of: impl Iterator<Item = (f64, f64)>,
+) -> Vec<f64> {
     let lagged = |tau| before.map_or(0.0, |before| before.lagged(tau));
     let of: Vec<Lag> = of.map(|(tau, w)| Lag { tau, weight: w * tau, start: lagged(tau) }).collect();
     lags(scene.time, scene.velocity, &of)
