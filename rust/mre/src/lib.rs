@@ -31,6 +31,7 @@
 //! ```
 
 pub mod assembly;
+mod deviate;
 pub mod device;
 pub mod diagnose;
 pub mod effect;

@@ -3,13 +3,18 @@
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
+use rand_chacha::ChaCha8Rng;
+use rand_core::SeedableRng;
 use rayon::prelude::*;
 
 use super::halves::with_halves;
-use super::motion::{Doubts, of_one_motion};
+use super::motion::{Doubts, of_one_motion, shaken};
 use crate::effect::{Acceleration, Scene, Sizes};
 use crate::error::{Error, Result};
 use crate::recording::{Condition, Recording};
+
+/// Times that the noise of motions is drawn anew.
+const SHAKEN: u64 = 4;
 
 /// Recordings with sizes, and what is derived of them.
 #[derive(Debug, Clone)]
@@ -19,6 +24,7 @@ pub struct Campaign {
     currents: Vec<Option<Vec<f64>>>,
     halves: Vec<OnceLock<Option<Recording>>>,
     doubts: Vec<Doubts>,
+    shaken: OnceLock<Vec<Campaign>>,
     before: Vec<f64>,
     sizes: Sizes,
 }
@@ -60,7 +66,8 @@ impl Campaign {
             })
             .collect();
         let doubts = vec![Doubts::default(); recordings.len()];
-        Self { recordings, accelerations, currents, halves, doubts, before, sizes }
+        let shaken = OnceLock::new();
+        Self { recordings, accelerations, currents, halves, doubts, shaken, before, sizes }
     }
 
     /// The same with doubts about the motions, by recording.
@@ -78,6 +85,28 @@ impl Campaign {
     /// In what the motion of each recording is not to be trusted.
     pub(crate) fn doubts(&self) -> &[Doubts] {
         &self.doubts
+    }
+
+    /// The same with the noise of the motions whose velocity is derived drawn anew and added once more, some times; none
+    /// where there is no such noise.
+    pub(crate) fn shaken(&self) -> &[Self] {
+        self.shaken.get_or_init(|| {
+            if self.doubts.iter().all(|doubts| doubts.calming.is_none()) {
+                return Vec::new();
+            }
+            (0..SHAKEN).map(|draw| self.shaken_once(draw)).collect()
+        })
+    }
+
+    fn shaken_once(&self, draw: u64) -> Self {
+        let own = |(r, recording): (usize, &Arc<Recording>)| {
+            let mut stream = ChaCha8Rng::seed_from_u64(draw);
+            stream.set_stream(r as u64);
+            let doubts = &self.doubts[r];
+            shaken(recording, doubts, &mut stream).unwrap_or_else(|| (recording.clone(), doubts.clone()))
+        };
+        let (recordings, doubts) = self.recordings.par_iter().enumerate().map(own).unzip();
+        Self::with_sizes(recordings, self.sizes.clone()).doubting(doubts)
     }
 
     /// The same with other sizes; in what steps the force is measured stays its own.

@@ -20,7 +20,7 @@ pub struct Assembly<'a> {
     pub(super) reference: Arc<Vec<Vec<f64>>>,
     /// Force of the device with all its effects, by recording.
     pub(super) whole: Arc<Vec<Vec<f64>>>,
-    boxes: Vec<Parameter>,
+    pub(super) boxes: Vec<Parameter>,
     pub(super) known: Option<Arc<Known>>,
 }
 

@@ -12,6 +12,7 @@ mod in_series;
 mod kept;
 mod layout;
 mod motion;
+mod shaken;
 mod simulate;
 
 pub use base::Base;

@@ -3,8 +3,11 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use rand_chacha::ChaCha8Rng;
+
+use crate::deviate::normal;
 use crate::recording::Recording;
-use crate::velocity;
+use crate::velocity::{self, Calm, Calming};
 
 /// A derived velocity has about twice the noise and more within one part in so many of half a window from an end of its
 /// recording: an effect that changes with time would seem to explain that.
@@ -20,6 +23,8 @@ pub(crate) struct Doubts {
     pub(crate) noisy: Vec<[Vec<f64>; 2]>,
     /// True where the motion has corners: its velocity errs more near them than elsewhere, beyond what is left out.
     pub(crate) cornered: bool,
+    /// How noise was taken off the motion, of which some is left; `None` where nothing is known of it.
+    pub(crate) calming: Option<Calming>,
 }
 
 /// A recording whose displacement is the one that its velocity is the slope of, without the noise of the two.
@@ -31,19 +36,37 @@ pub(super) fn of_one_motion(recording: &Recording) -> (Arc<Recording>, Doubts) {
     let (displacement, velocity, doubts) = if recording.velocity_window().is_some() {
         let derived = velocity::from_displacement(time, x);
         if derived.corners.is_empty() {
-            let velocity::Calmed { displacement, velocity, noisy } = velocity::calmed(time, x, &derived);
+            let calming = Calming::of(time, x, &derived);
+            let Calm { displacement, velocity, noisy } = calming.over(time, x);
             let left_out = ends(time.len(), derived.half);
-            (displacement, velocity, Doubts { left_out, noisy, cornered: false })
+            (displacement, velocity, Doubts { left_out, noisy, cornered: false, calming: Some(calming) })
         } else {
             // Across a corner a longer window takes off motion.
             let velocity::Derived { displacement, velocity, corners, .. } = derived;
-            (displacement, velocity, Doubts { left_out: corners, noisy: Vec::new(), cornered: true })
+            (displacement, velocity, Doubts { left_out: corners, cornered: true, ..Doubts::default() })
         }
     } else {
         let v = velocity::smoothed(time, v);
         (velocity::without_noise(time, x, &v), v, Doubts::default())
     };
     (Arc::new(recording.seen_with(displacement, velocity, None)), doubts)
+}
+
+/// A motion with what is left of as much noise as it had, drawn anew; `None` where none is known.
+pub(super) fn shaken(
+    recording: &Recording,
+    doubts: &Doubts,
+    stream: &mut ChaCha8Rng,
+) -> Option<(Arc<Recording>, Doubts)> {
+    let calming = doubts.calming.as_ref().filter(|calming| calming.noise > 0.0)?;
+    let noise: Vec<f64> = recording.time().iter().map(|_| calming.noise * normal(stream)).collect();
+    let left = calming.over(recording.time(), &noise);
+    let more = |own: &[f64], left: &[f64]| own.iter().zip(left).map(|(own, left)| own + left).collect();
+    let displacement = more(recording.displacement(), &left.displacement);
+    let velocity = more(recording.velocity(), &left.velocity);
+    let parts = doubts.noisy.iter().zip(&left.noisy);
+    let noisy = parts.map(|(own, left)| [0, 1].map(|k| more(&own[k], &left[k]))).collect();
+    Some((Arc::new(recording.seen_with(displacement, velocity, None)), Doubts { noisy, ..doubts.clone() }))
 }
 
 /// Samples at the ends of so many whose velocity is derived over this half window.

@@ -4,9 +4,13 @@ use nalgebra::{DMatrix, DVector};
 
 use super::bounded;
 use super::distribution::{chi_square_beyond, chi_square_tail};
+use super::shaken::unsure;
 
 /// Share of a column's square that has to survive the projection: below it the column is absorbed.
 pub(super) const SMALLEST_SHARE: f64 = 1e-8;
+
+/// Keeps the products solvable, scaled to ones on the diagonal.
+const RIDGE: f64 = 1e-9;
 
 /// The columns of one start of a law, projected.
 pub(super) struct Block {
@@ -42,6 +46,23 @@ impl Block {
         }
         let c = DVector::from_vec(bounded::minimise(&self.gram, right, &self.lower, &self.upper));
         (2.0 * right.dot(&c) - c.dot(&(&self.gram * &c))).max(0.0)
+    }
+
+    /// The smallest of the gains that are left of products once a bias is taken off, as far as its size is not known.
+    pub(super) fn least_gain(&self, right: &DVector<f64>, bias: &DVector<f64>) -> f64 {
+        let here = self.gain(right);
+        if bias.amax() == 0.0 {
+            return here;
+        }
+        let solved = DMatrix::from_fn(self.gram.nrows(), self.gram.nrows(), |i, j| {
+            self.gram[(i, j)] + if i == j { RIDGE * self.gram[(i, i)] + f64::MIN_POSITIVE } else { 0.0 }
+        });
+        let wanted = solved.cholesky().map_or(0.0, |factor| {
+            let of_bias = factor.solve(bias);
+            right.dot(&of_bias) / bias.dot(&of_bias)
+        });
+        let tried = [wanted, f64::INFINITY].map(|wanted| self.gain(&(right - bias * unsure(wanted))));
+        tried.into_iter().fold(here, f64::min)
     }
 
     /// Gain that the null reaches with this chance; none where the projection leaves nothing.

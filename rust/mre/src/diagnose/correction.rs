@@ -5,7 +5,8 @@ use rand_chacha::ChaCha8Rng;
 use rand_core::SeedableRng;
 
 use super::block::Block;
-use super::distribution::{chi_square_beyond, chi_square_tail, normal};
+use super::distribution::{chi_square_beyond, chi_square_tail};
+use crate::deviate::normal;
 
 /// Simulated draws over the starts of a law.
 const DRAWS: usize = 400;

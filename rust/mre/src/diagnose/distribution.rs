@@ -1,7 +1,4 @@
-//! Tails of distributions, and normal deviates.
-
-use rand_chacha::ChaCha8Rng;
-use rand_core::Rng;
+//! Tails of distributions.
 
 /// Tests that decide count a gain this much less: the noise was estimated from the same residuals, and far out in the
 /// tail that makes chance gains larger still than on average ([`super::noise::Noise::inflation`]).
@@ -84,12 +81,6 @@ fn ln_gamma(x: f64) -> f64 {
 pub(super) fn normal_tail(x: f64) -> f64 {
     let beyond = 0.5 * chi_square_tail(x * x, 1);
     if x > 0.0 { beyond } else { 1.0 - beyond }
-}
-
-/// A standard normal deviate (Box and Muller 1958).
-pub(super) fn normal(stream: &mut ChaCha8Rng) -> f64 {
-    let mut uniform = || ((stream.next_u64() >> 11) as f64 + 0.5) / (1_u64 << 53) as f64;
-    (-2.0 * uniform().ln()).sqrt() * (std::f64::consts::TAU * uniform()).cos()
 }
 
 #[cfg(test)]

@@ -164,8 +164,8 @@ mod tests {
     use rand_chacha::ChaCha8Rng;
     use rand_core::SeedableRng;
 
-    use super::super::distribution::normal;
     use super::*;
+    use crate::deviate::normal;
 
     /// Noise of seven recordings: the sum of processes with these correlations from sample to sample.
     fn recordings(poles: &[f64], seed: u64) -> Vec<Vec<f64>> {

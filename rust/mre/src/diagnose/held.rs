@@ -5,9 +5,9 @@ use nalgebra::{DMatrix, DVector};
 
 use super::bounded;
 use super::null::Null;
+use super::projection::Projection;
 use super::screen::Score;
 use super::step::{Ridge, step};
-use crate::assembly::Assembly;
 
 /// Step of the difference quotients, in the unit box.
 const STEP: f64 = 1e-4;
@@ -52,7 +52,7 @@ impl Null<'_> {
         if unit.is_empty() || self.broken_off() {
             return stay(score.gain);
         }
-        let mut here = self.local(&joint, score, &unit, &physical);
+        let mut here = self.local(score, &unit, &physical);
         let mut damping = 1e-3;
         for _ in 0..MOST {
             if self.broken_off() {
@@ -64,7 +64,7 @@ impl Null<'_> {
                 break;
             }
             let tried: Vec<f64> = unit.iter().zip(&step).map(|(u, s)| (u + s).clamp(0.0, 1.0)).collect();
-            let next = self.local(&joint, score, &tried, &physical);
+            let next = self.local(score, &tried, &physical);
             if next.gain > here.gain {
                 (here, unit) = (next, tried);
                 damping *= 0.2;
@@ -76,13 +76,7 @@ impl Null<'_> {
         if here.gain <= 0.0 { stay(0.0) } else { Held { score, shape: physical(&unit), gain: here.gain } }
     }
 
-    fn local(
-        &self,
-        joint: &Assembly,
-        score: &Score,
-        unit: &[f64],
-        physical: &dyn Fn(&[f64]) -> Vec<f64>,
-    ) -> Local {
+    fn local(&self, score: &Score, unit: &[f64], physical: &dyn Fn(&[f64]) -> Vec<f64>) -> Local {
         let moves: Vec<f64> = unit.iter().map(|u| if u + STEP > 1.0 { -STEP } else { STEP }).collect();
         let mut shapes = vec![physical(unit)];
         for (j, step) in moves.iter().enumerate() {
@@ -91,8 +85,8 @@ impl Null<'_> {
             shapes.push(physical(&moved));
         }
         let w = score.freedom;
-        let (gram, right, _) =
-            self.project(w * shapes.len(), |r| self.law_columns(joint, score.effect, &shapes, w, r));
+        let Projection { gram, right, .. } =
+            self.project(w * shapes.len(), |view, r| self.law_columns(view, (score.effect, w), &shapes, r));
         let effect = score.effect.coefficients();
         let values = if effect.is_empty() {
             vec![1.0; w]

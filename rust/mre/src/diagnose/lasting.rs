@@ -4,6 +4,7 @@ use nalgebra::DVector;
 
 use super::locate::{CLEARLY, Finding, Place, SMALLEST_SHARE};
 use super::null::Null;
+use super::projection::Projection;
 
 /// Parts of a recording between which the stiffness may change for good.
 const PARTS: usize = 20;
@@ -21,8 +22,8 @@ pub(super) fn lasting(null: &Null) -> Vec<Finding> {
     }
     // Of each recording: the force from a moment on, the whole force first.
     let count = recordings * PARTS;
-    let (gram, right, squares) = null.project(count, |r| {
-        let scene = null.scene(r);
+    let Projection { gram, right, squares, .. } = null.project(count, |view, r| {
+        let scene = view.scene(r);
         let n = scene.len();
         let from = |part: usize| {
             let start = n * part / PARTS;

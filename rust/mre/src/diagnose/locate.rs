@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use super::distribution::chi_square_tail;
 use super::lasting::lasting;
 use super::null::Null;
+use super::projection::Projection;
 use crate::effect::Scene;
 
 /// Moments of each recording at which the stiffness may change.
@@ -106,16 +107,18 @@ pub(super) fn overlap(a: &Place, b: &Place) -> bool {
 }
 
 /// Strength of single columns on one recording.
-pub(super) fn strengths(null: &Null, r: usize, columns: Vec<Vec<f64>>) -> Vec<f64> {
-    let count = columns.len();
-    let mut columns = Some(columns);
-    let (gram, right, squares) = null.project(count, |s| {
-        if s == r { columns.take().unwrap_or_default().into_iter().enumerate().collect() } else { Vec::new() }
+pub(super) fn strengths(
+    null: &Null,
+    (r, count): (usize, usize),
+    columns: &dyn Fn(&Scene) -> Vec<Vec<f64>>,
+) -> Vec<f64> {
+    let projected = null.project(count, |view, s| {
+        if s == r { columns(&view.scene(r)).into_iter().enumerate().collect() } else { Vec::new() }
     });
     (0..count)
         .map(|i| {
-            let left = gram[(i, i)];
-            if left > SMALLEST_SHARE * squares[i] { right[i] / left.sqrt() } else { 0.0 }
+            let left = projected.gram[(i, i)];
+            if left > SMALLEST_SHARE * projected.squares[i] { projected.strength(i) } else { 0.0 }
         })
         .collect()
 }
@@ -124,23 +127,24 @@ fn in_recording(null: &Null, r: usize) -> Vec<Finding> {
     let scene = null.scene(r);
     let (time, n) = (scene.time, scene.len());
     let width = scene.duration() / MOMENTS as f64;
-    let mut columns: Vec<Vec<f64>> = (1..MOMENTS)
-        .map(|k| {
-            let from = n * k / MOMENTS;
-            (0..n).map(|i| if i >= from { scene.force[i] } else { 0.0 }).collect()
-        })
-        .collect();
-    columns.push(scene.force.to_vec());
-    columns.push(scene.velocity.to_vec());
     let drive = drive(&scene);
-    if let Some(drive) = drive {
-        for h in 1..=HARMONICS {
-            let phase = |t: &f64| std::f64::consts::TAU * drive * h as f64 * t;
+    let columns = |scene: &Scene| {
+        let from = |k: usize| {
+            let start = n * k / MOMENTS;
+            (0..n).map(|i| if i >= start { scene.force[i] } else { 0.0 }).collect()
+        };
+        let mut columns: Vec<Vec<f64>> = (1..MOMENTS).map(from).collect();
+        columns.push(scene.force.to_vec());
+        columns.push(scene.velocity.to_vec());
+        for h in drive.iter().flat_map(|drive| (1..=HARMONICS).map(move |h| drive * h as f64)) {
+            let phase = |t: &f64| std::f64::consts::TAU * h * t;
             columns.push(time.iter().map(|t| phase(t).sin()).collect());
             columns.push(time.iter().map(|t| phase(t).cos()).collect());
         }
-    }
-    let scores = strengths(null, r, columns);
+        columns
+    };
+    let count = MOMENTS + 1 + drive.map_or(0, |_| 2 * HARMONICS);
+    let scores = strengths(null, (r, count), &columns);
     // A change at a moment says more than the whole recording only where it explains clearly more.
     let whole = scores[MOMENTS - 1].powi(2);
     let mut found: Vec<Finding> = (1..MOMENTS)
@@ -215,8 +219,8 @@ fn in_state(null: &Null) -> Vec<Finding> {
     // Every hat in each band of velocities.
     let bands = [[-fast, fast], [0.0, fast], [-fast, 0.0], [-fast, -0.5 * fast], [0.5 * fast, fast]];
     let count = bands.len() * (STRETCHES + 1);
-    let (gram, right, squares) = null.project(count, |r| {
-        let scene = null.scene(r);
+    let Projection { gram, right, squares, .. } = null.project(count, |view, r| {
+        let scene = view.scene(r);
         (0..count)
             .map(|place| {
                 let (k, [low, high]) = (place / bands.len(), bands[place % bands.len()]);

@@ -7,6 +7,8 @@ use super::distribution::{CAUTION, chi_square_tail};
 use super::features::{On, features};
 use super::locate::strengths;
 use super::null::Null;
+use super::projection::Projection;
+use super::shaken::unsure;
 use crate::effect::Scene;
 
 /// Share of a feature's square that the projection has to leave.
@@ -68,16 +70,12 @@ impl Mismatch {
 pub(super) struct Projected {
     gram: nalgebra::DMatrix<f64>,
     right: DVector<f64>,
+    bias: DVector<f64>,
 }
 
 impl Projected {
     /// Columns that the projection leaves.
-    pub(super) fn of(
-        gram: &nalgebra::DMatrix<f64>,
-        right: &DVector<f64>,
-        squares: &[f64],
-        chosen: &[usize],
-    ) -> Self {
+    pub(super) fn of(Projection { gram, right, bias, squares }: &Projection, chosen: &[usize]) -> Self {
         let kept: Vec<usize> =
             chosen.iter().copied().filter(|i| gram[(*i, *i)] > SMALLEST_SHARE * squares[*i]).collect();
         let scale: Vec<f64> = kept.iter().map(|i| 1.0 / gram[(*i, *i)].sqrt()).collect();
@@ -86,6 +84,7 @@ impl Projected {
                 gram[(kept[a], kept[b])] * scale[a] * scale[b]
             }),
             right: DVector::from_fn(kept.len(), |a, _| right[kept[a]] * scale[a]),
+            bias: DVector::from_fn(kept.len(), |a, _| bias[kept[a]] * scale[a]),
         }
     }
 
@@ -95,14 +94,18 @@ impl Projected {
             return Mismatch::NONE;
         }
         let eigen = self.gram.symmetric_eigen();
-        let (mut gain, mut freedom) = (0.0, 0);
-        for (value, vector) in eigen.eigenvalues.iter().zip(eigen.eigenvectors.column_iter()) {
-            if *value > 1e-6 {
-                gain += vector.dot(&self.right).powi(2) / value;
-                freedom += 1;
-            }
-        }
-        Mismatch::new(gain, freedom)
+        let kept = eigen
+            .eigenvalues
+            .iter()
+            .zip(eigen.eigenvectors.column_iter())
+            .filter(|(value, _)| **value > 1e-6);
+        let along = |product: &DVector<f64>| -> DVector<f64> {
+            let each = kept.clone().map(|(value, vector)| vector.dot(product) / value.sqrt());
+            DVector::from_vec(each.collect())
+        };
+        let (right, bias) = (along(&self.right), along(&self.bias));
+        let further = unsure(right.dot(&bias) / bias.norm_squared());
+        Mismatch::new((&right - &bias * further).norm_squared(), right.len())
     }
 }
 
@@ -110,9 +113,7 @@ impl Projected {
 pub(super) struct Generic {
     /// What each depends on.
     on: Vec<On>,
-    gram: nalgebra::DMatrix<f64>,
-    right: DVector<f64>,
-    squares: Vec<f64>,
+    projected: Projection,
     /// True where the velocity of a recording is derived from its displacement.
     derived: bool,
     /// How much larger a gain is by chance because the noise was estimated.
@@ -132,8 +133,7 @@ impl Generic {
     /// Those that depend on some things.
     pub(super) fn of(&self, chosen: impl Fn(On) -> bool) -> Mismatch {
         let places: Vec<usize> = (0..self.on.len()).filter(|i| chosen(self.on[*i])).collect();
-        let Mismatch { gain, freedom, .. } =
-            Projected::of(&self.gram, &self.right, &self.squares, &places).mismatch();
+        let Mismatch { gain, freedom, .. } = Projected::of(&self.projected, &places).mismatch();
         Mismatch::new(gain / self.inflation, freedom)
     }
 
@@ -157,12 +157,12 @@ impl Null<'_> {
             return Mismatch::NONE;
         }
         let each = OWN_STRETCHES + 1;
-        let (gram, right, squares) = self.project(each * recordings, |r| {
-            let scene = self.scene(r);
+        let projected = self.project(each * recordings, |view, r| {
+            let scene = view.scene(r);
             (0..each).map(|k| (each * r + k, near(&scene, k, OWN_STRETCHES))).collect()
         });
         let all: Vec<usize> = (0..each * recordings).collect();
-        let Mismatch { gain, freedom, .. } = Projected::of(&gram, &right, &squares, &all).mismatch();
+        let Mismatch { gain, freedom, .. } = Projected::of(&projected, &all).mismatch();
         Mismatch::new(gain / MORE_CAUTION, freedom)
     }
 
@@ -174,8 +174,8 @@ impl Null<'_> {
             return Mismatch::NONE;
         }
         let largest = |r: usize| {
-            let scene = self.scene(r);
-            let own = strengths(self, r, vec![scene.force.to_vec(), scene.velocity.to_vec()]);
+            let motion = |scene: &Scene| vec![scene.force.to_vec(), scene.velocity.to_vec()];
+            let own = strengths(self, (r, 2), &motion);
             own.into_iter().fold(0.0, |most: f64, s| most.max(s * s))
         };
         let gain = (0..recordings).map(largest).fold(0.0, f64::max);
@@ -193,8 +193,8 @@ impl Null<'_> {
         on.extend([On::Time; STRETCHES - 1]);
         let count = on.len();
         on.extend(vec![On::Recording; own]);
-        let (gram, right, squares) = self.project(count + own, |r| {
-            let scene = self.scene(r);
+        let projected = self.project(count + own, |view, r| {
+            let scene = view.scene(r);
             let mut columns: Vec<(usize, Vec<f64>)> =
                 features(&scene).into_iter().map(|f| f.column).chain(passing(&scene)).enumerate().collect();
             if own > 0 {
@@ -203,6 +203,6 @@ impl Null<'_> {
             columns
         });
         let derived = self.assembly().campaign().recordings().iter().any(|r| r.velocity_window().is_some());
-        Generic { on, gram, right, squares, derived, inflation: self.noise().inflation() }
+        Generic { on, projected, derived, inflation: self.noise().inflation() }
     }
 }

@@ -6,26 +6,12 @@ use super::least_squares::Data;
 use super::noise::Noise;
 use super::normal::whitened;
 use super::point::Point;
+use super::projection::{Projection, View};
+use super::shaken::Shaken;
+use super::tangents::tangents_at;
 use crate::assembly::Assembly;
 use crate::effect::{Effect, Scene};
 use crate::kernel::filter::dot;
-use crate::recording::Condition;
-
-/// What may be noise of a derived motion, whitened: the force does not follow it, so that every coefficient of it is
-/// possible; and every dependence of that on a current that changes.
-fn noisy(assembly: &Assembly, data: Data, r: usize) -> impl Iterator<Item = Vec<f64>> {
-    let recording = &assembly.campaign().recordings()[r];
-    let current = match recording.current() {
-        Condition::Series(current) if recording.current().varies() => Some(current),
-        _ => None,
-    };
-    let all = assembly.campaign().doubts()[r].noisy.iter().flatten();
-    let white = move |series: &[f64]| whitened(data.noise, r, &data.rows[r], series);
-    all.flat_map(move |series| {
-        let product = |current: &Vec<f64>| series.iter().zip(current).map(|(s, i)| s * i).collect::<Vec<_>>();
-        std::iter::once(white(series)).chain(current.map(|current| white(&product(current))))
-    })
-}
 
 /// Orthogonal complement of the tangents of a fitted model, by recording.
 pub(super) struct Null<'a> {
@@ -38,6 +24,9 @@ pub(super) struct Null<'a> {
     scale: Vec<f64>,
     /// Products of the tangents with the residual.
     right: DVector<f64>,
+    /// What the noise of the motions does to them.
+    shaken: Vec<Shaken<'a>>,
+    bias: DVector<f64>,
 }
 
 impl<'a> Null<'a> {
@@ -48,20 +37,21 @@ impl<'a> Null<'a> {
         let assembly = assembly.knowing(&assembly.physical(unit));
         let mut point = Point::at(&assembly, data, unit.to_vec());
         let known = point.fitted.coefficients.len() + unit.len();
-        let tangents: Vec<Vec<(usize, Vec<f64>)>> = point
-            .tangents(&assembly, data)
-            .into_iter()
-            .zip(&mut point.recordings)
-            .enumerate()
-            .map(|(r, (own, local))| {
-                let noisy = noisy(&assembly, data, r).enumerate().map(|(k, column)| (known + k, column));
-                std::mem::take(&mut local.columns).into_iter().chain(own).chain(noisy).collect()
-            })
-            .collect();
+        let others = Shaken::of(&assembly, data, &point);
+        let tangents = tangents_at(&assembly, data, &mut point, known);
         let last = tangents.iter().flatten().map(|(place, _)| place + 1).max();
         let count = last.unwrap_or(0).max(known);
         let mut gram = DMatrix::<f64>::zeros(count, count);
         let mut right = DVector::<f64>::zeros(count);
+        let mut bias = DVector::<f64>::zeros(count);
+        let mut shaken = Vec::with_capacity(others.len());
+        for (mut point, other) in others {
+            let there = tangents_at(other.assembly(), data, &mut point, known);
+            other.add(&mut bias, &there, 1.0);
+            other.add(&mut bias, &tangents, -1.0);
+            shaken.push(other);
+        }
+        bias /= shaken.len().max(1) as f64;
         for (columns, local) in tangents.iter().zip(&point.recordings) {
             for (i, a) in columns {
                 right[*i] += dot(a, &local.residual);
@@ -80,7 +70,7 @@ impl<'a> Null<'a> {
             gram[(i, j)] * scale[i] * scale[j] + unit
         });
         let factor = scaled.cholesky()?;
-        Some(Self { assembly, data, point, tangents, factor, scale, right })
+        Some(Self { assembly, data, point, tangents, factor, scale, right, shaken, bias })
     }
 
     /// True where the search was broken off.
@@ -103,46 +93,69 @@ impl<'a> Null<'a> {
         self.assembly.scene(r)
     }
 
-    /// Gram matrix and right side of columns, projected off the tangents, and the squares before that.
-    /// `columns(r)` gives those of a recording with their places among `count`.
+    /// Columns projected off the tangents. `columns(view, r)` gives those of a recording with their places among
+    /// `count`.
     pub(super) fn project(
         &self,
         count: usize,
-        mut columns: impl FnMut(usize) -> Vec<(usize, Vec<f64>)>,
-    ) -> (DMatrix<f64>, DVector<f64>, Vec<f64>) {
+        mut columns: impl FnMut(&View, usize) -> Vec<(usize, Vec<f64>)>,
+    ) -> Projection {
         let tangent_count = self.scale.len();
         let mut gram = DMatrix::<f64>::zeros(count, count);
         let mut cross = DMatrix::<f64>::zeros(tangent_count, count);
         let mut right = DVector::<f64>::zeros(count);
+        let mut bias = DVector::<f64>::zeros(count);
+        let here = self.view();
+        let white = |r: usize, (i, series): (usize, Vec<f64>)| {
+            (i, whitened(self.data.noise, r, &self.data.rows[r], &series))
+        };
         for (r, local) in self.point.recordings.iter().enumerate() {
-            let mut white: Vec<(usize, Vec<f64>)> = Vec::new();
-            for (i, series) in columns(r) {
-                let z = whitened(self.data.noise, r, &self.data.rows[r], &series);
-                right[i] += dot(&z, &local.residual);
+            let own: Vec<(usize, Vec<f64>)> = columns(&here, r).into_iter().map(|c| white(r, c)).collect();
+            for (n, (i, z)) in own.iter().enumerate() {
+                right[*i] += dot(z, &local.residual);
                 for (j, t) in &self.tangents[r] {
-                    cross[(*j, i)] += dot(t, &z);
+                    cross[(*j, *i)] += dot(t, z);
                 }
-                gram[(i, i)] += dot(&z, &z);
-                for (j, other) in &white {
-                    let product = dot(other, &z);
-                    gram[(i, *j)] += product;
-                    gram[(*j, i)] += product;
+                gram[(*i, *i)] += dot(z, z);
+                for (j, other) in &own[..n] {
+                    let product = dot(other, z);
+                    gram[(*i, *j)] += product;
+                    gram[(*j, *i)] += product;
                 }
-                white.push((i, z));
+            }
+            for other in &self.shaken {
+                let there: Vec<(usize, Vec<f64>)> =
+                    columns(&other.view(), r).into_iter().map(|c| white(r, c)).collect();
+                other.add_in(r, &mut bias, &there, 1.0);
+                other.add_in(r, &mut bias, &own, -1.0);
             }
         }
+        bias /= self.shaken.len().max(1) as f64;
         let squares = (0..count).map(|i| gram[(i, i)]).collect();
         let scaled = DMatrix::from_fn(tangent_count, count, |j, i| cross[(j, i)] * self.scale[j]);
-        let tangent_right = DVector::from_fn(tangent_count, |j, _| self.right[j] * self.scale[j]);
-        let solved = self.factor.solve(&scaled);
-        (gram - scaled.transpose() * &solved, right - solved.transpose() * tangent_right, squares)
+        let solved = self.factor.solve(&scaled).transpose();
+        let of_tangents = |products: &DVector<f64>| {
+            &solved * DVector::from_fn(tangent_count, |j, _| products[j] * self.scale[j])
+        };
+        let bias = bias - of_tangents(&self.bias);
+        let right = right - of_tangents(&self.right);
+        Projection { gram: gram - &solved * &scaled, right, bias, squares }
+    }
+
+    /// The recordings as they are.
+    fn view(&self) -> View<'_, 'a> {
+        let force = self.point.recordings.iter().map(|local| local.force.as_slice()).collect();
+        View { assembly: &self.assembly, force }
+    }
+
+    /// True for the recordings as they are.
+    pub(super) fn is_own(&self, view: &View) -> bool {
+        std::ptr::eq(view.assembly.campaign(), self.assembly.campaign())
     }
 
     /// The model with one more law.
     pub(super) fn with(&self, effect: &'static dyn Effect) -> Assembly<'a> {
-        let mut effects = self.assembly.effects().to_vec();
-        effects.push(effect);
-        self.assembly.with(effects)
+        self.view().with(effect)
     }
 
     /// Shapes of the fitted model, in their units.

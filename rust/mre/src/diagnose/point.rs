@@ -85,6 +85,21 @@ impl Point {
         Self { fitted, recordings, normal }
     }
 
+    /// The same model, its parameters kept, where motions are others: its columns and forces; nothing is measured there.
+    pub(super) fn elsewhere(&self, assembly: &Assembly, data: Data) -> Self {
+        let shapes = assembly.physical(&self.fitted.unit);
+        let jobs: Vec<(usize, &[f64])> = (0..self.recordings.len()).map(|r| (r, shapes.as_slice())).collect();
+        let local = |(r, raw): (usize, Columns)| {
+            let force = raw.measured(&self.fitted.coefficients);
+            let white = |c: Vec<f64>| whitened(data.noise, r, &data.rows[r], &c);
+            let columns = raw.places.into_iter().zip(raw.columns.into_iter().map(white)).collect();
+            Local { columns, force, residual: Vec::new() }
+        };
+        let raw = assembly.columns_of(&jobs);
+        let recordings = raw.into_par_iter().enumerate().map(local).collect();
+        Self { fitted: self.fitted.clone(), recordings, normal: Normal::zeros(0) }
+    }
+
     /// Normal equations of coefficients and shapes together, for the residual; the samples are let go.
     pub(super) fn with_tangents(self, assembly: &Assembly, data: Data) -> Normal {
         let (k, d) = (self.fitted.coefficients.len(), self.fitted.unit.len());

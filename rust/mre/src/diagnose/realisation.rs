@@ -2,7 +2,7 @@
 
 use rand_chacha::ChaCha8Rng;
 
-use super::distribution::normal;
+use crate::deviate::normal;
 
 /// `count` samples of an autoregression driven by normal shocks, after as many to forget its start.
 ///

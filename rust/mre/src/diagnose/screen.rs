@@ -11,7 +11,7 @@ use super::block::{Block, SMALLEST_SHARE};
 use super::correction::correction;
 use super::distribution::CAUTION;
 use super::null::Null;
-use crate::assembly::Assembly;
+use super::projection::{Projection, View};
 use crate::effect::Effect;
 use crate::kernel::filter::dot;
 
@@ -52,15 +52,17 @@ impl Null<'_> {
         let coefficients = effect.coefficients();
         let own = if effect.of_the_measurement() { recordings } else { 1 };
         let width = (coefficients.len() * own).max(1);
-        let joint = self.with(effect);
         let mut raw = vec![0.0; width * starts.len()];
-        let (gram, right, squares) = self.project(width * starts.len(), |r| {
-            let columns = self.law_columns(&joint, effect, &starts, width, r);
-            for (i, column) in &columns {
-                raw[*i] += dot(column, column);
+        let of_law = |view: &View, r| {
+            let columns = self.law_columns(view, (effect, width), &starts, r);
+            if self.is_own(view) {
+                for (i, column) in &columns {
+                    raw[*i] += dot(column, column);
+                }
             }
             columns
-        });
+        };
+        let Projection { gram, right, bias, squares } = self.project(width * starts.len(), of_law);
         let samples: usize = self.point.recordings.iter().map(|l| l.force.len()).sum();
         let block = |s: usize| {
             let g = gram.view((s * width, s * width), (width, width)).into_owned();
@@ -81,7 +83,8 @@ impl Null<'_> {
             .collect();
         let visible = blocks.iter().map(|b| b.visible).fold(0.0, f64::max);
         let part = |v: &DVector<f64>, s: usize| v.rows(s * width, width).into_owned();
-        let gains: Vec<f64> = (0..starts.len()).map(|s| blocks[s].gain(&part(&right, s))).collect();
+        let gain = |s: usize| blocks[s].least_gain(&part(&right, s), &part(&bias, s));
+        let gains: Vec<f64> = (0..starts.len()).map(gain).collect();
         let (best, gain) = gains.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
         let smallest = (0..starts.len()).map(|s| blocks[s].tail(gains[s] / CAUTION)).fold(1.0, f64::min);
         let correction = correction(&gram, &blocks, width, seed);
@@ -111,14 +114,14 @@ impl Null<'_> {
     /// Columns of all starts of a law on one recording, with their places.
     pub(super) fn law_columns(
         &self,
-        joint: &Assembly,
-        effect: &'static dyn Effect,
+        view: &View,
+        (effect, width): (&'static dyn Effect, usize),
         starts: &[Vec<f64>],
-        width: usize,
         r: usize,
     ) -> Vec<(usize, Vec<f64>)> {
         let shapes = self.shapes();
         let known = self.point.fitted.coefficients.len();
+        let joint = view.with(effect);
         let mut found = Vec::new();
         let all: Vec<Vec<f64>> =
             starts.iter().map(|start| shapes.iter().chain(start).copied().collect()).collect();
@@ -128,7 +131,7 @@ impl Null<'_> {
         for (s, columns) in columns.enumerate() {
             if effect.coefficients().is_empty() {
                 let mut change = columns.measured(&self.point.fitted.coefficients);
-                for (c, f) in change.iter_mut().zip(&self.point.recordings[r].force) {
+                for (c, f) in change.iter_mut().zip(view.force[r]) {
                     *c -= f;
                 }
                 found.push((s * width, change));

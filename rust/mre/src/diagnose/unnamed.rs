@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 
 use super::distribution::{CAUTION, chi_square_tail};
 use super::null::Null;
+use super::projection::Projection;
 use crate::effect::Scene;
 
 /// Waves over the largest displacement: lowest, highest, and how far apart.
@@ -76,13 +77,14 @@ pub(super) fn best(null: &Null, rows: usize) -> Unnamed {
 /// Squared standard deviations that the first column takes off, and all of them; zero where the projection leaves
 /// none of one.
 fn gains(null: &Null, columns: &[Force]) -> [f64; 2] {
-    let (gram, right, squares) = null.project(columns.len(), |r| {
-        let scene = null.scene(r);
+    let projected = null.project(columns.len(), |view, r| {
+        let scene = view.scene(r);
         let of = |column: &Force| (0..scene.len()).map(|i| column(i, &scene)).collect();
         columns.iter().map(of).enumerate().collect()
     });
+    let Projection { gram, right, squares, .. } = &projected;
     let left = |i: usize| gram[(i, i)] > SMALLEST_SHARE * squares[i];
-    let first = if left(0) { right[0].powi(2) / gram[(0, 0)] } else { 0.0 };
+    let first = if left(0) { projected.strength(0).powi(2) } else { 0.0 };
     let all = (0..columns.len()).all(left).then(|| gram.clone().cholesky()).flatten();
-    [first, all.map_or(0.0, |factor| right.dot(&factor.solve(&right)))]
+    [first, all.map_or(0.0, |factor| right.dot(&factor.solve(right)))]
 }

@@ -21,7 +21,7 @@ use std::ops::Range;
 use crate::recording::even_step;
 use corners::{corners, joined, variance};
 use local::{NARROWEST, TERMS};
-pub use octaves::{Calmed, calmed};
+pub use octaves::{Calm, Calming};
 use window::Window;
 
 /// Terms of the polynomials that are tried between corners.

@@ -23,7 +23,7 @@ const MIXED: usize = 2;
 type Motion = [Vec<f64>; 2];
 
 /// A derived motion with less noise.
-pub struct Calmed {
+pub struct Calm {
     /// Displacement, mm.
     pub displacement: Vec<f64>,
     /// Velocity, mm/s.
@@ -33,22 +33,68 @@ pub struct Calmed {
     pub noisy: Vec<Motion>,
 }
 
-/// A derived motion on an even grid less its noise, from the measured displacement in mm.
-pub fn calmed(time: &[f64], measured: &[f64], derived: &Derived) -> Calmed {
-    let half = derived.half;
-    let share = Window { half, terms: TERMS }.leverage();
-    let motion = [derived.displacement.clone(), derived.velocity.clone()];
-    let narrow = Smooth { motion, half, share };
-    let mut noisy = Noisy { time, measured, step: step(time), variance: 0.0 };
-    noisy.variance = noisy.left_by(&narrow) / (1.0 - share).max(f64::MIN_POSITIVE);
-    let Some(wide) = noisy.smooth(2 * half) else {
-        let [displacement, velocity] = narrow.motion;
-        return Calmed { displacement, velocity, noisy: Vec::new() };
-    };
-    let best = noisy.low_passed(&narrow, &wide);
-    let (taken, mixed) = noisy.of_octaves(&best, wide);
-    let [displacement, velocity] = less(&best.motion, &taken);
-    Calmed { displacement, velocity, noisy: std::iter::once(taken).chain(mixed).collect() }
+/// How noise is taken off a derived motion on an even grid: the same way off everything that is added to it.
+#[derive(Debug, Clone)]
+pub struct Calming {
+    /// Standard deviation of the noise of the measured displacement, mm.
+    pub noise: f64,
+    /// Half window of the local polynomials.
+    half: usize,
+    /// Of a low pass of what the next window takes off, Hz.
+    cut_off: Option<f64>,
+    /// What is noise of each octave, as a share of it at every sample; none where no wider window fits.
+    shares: Vec<Vec<f64>>,
+}
+
+impl Calming {
+    /// Of a measured displacement in mm.
+    pub fn of(time: &[f64], measured: &[f64], derived: &Derived) -> Self {
+        let half = derived.half;
+        let share = Window { half, terms: TERMS }.leverage();
+        let motion = [derived.displacement.clone(), derived.velocity.clone()];
+        let narrow = Smooth { motion, half, share };
+        let mut noisy = Noisy { time, measured, step: step(time), variance: 0.0 };
+        noisy.variance = noisy.left_by(&narrow) / (1.0 - share).max(f64::MIN_POSITIVE);
+        let noise = noisy.variance.sqrt();
+        let Some(wide) = noisy.smooth(2 * half) else {
+            return Self { noise, half, cut_off: None, shares: Vec::new() };
+        };
+        let (best, cut_off) = noisy.low_passed(&narrow, &wide);
+        Self { noise, half, cut_off, shares: noisy.shares_of_octaves(best, wide) }
+    }
+
+    /// What it leaves of a displacement in mm.
+    pub fn over(&self, time: &[f64], displacement: &[f64]) -> Calm {
+        let smooth = |half: usize| {
+            let (slope, value) = Window { half, terms: TERMS }.over(time, displacement);
+            [value, slope]
+        };
+        let mut fast = smooth(self.half);
+        let mut calm = fast.clone();
+        let mut taken = [0, 1].map(|_| vec![0.0; time.len()]);
+        let mut mixed = Vec::new();
+        for (k, shares) in self.shares.iter().enumerate() {
+            let half = self.half << (k + 1);
+            let slow = smooth(half);
+            if let Some(frequency) = self.cut_off.filter(|_| k == 0)
+                && let Some(passed) = low_passed(&fast, (&slow, half), frequency, step(time))
+            {
+                (fast, calm) = (passed.clone(), passed);
+            }
+            let octave = less(&fast, &slow);
+            let noise = octave.clone().map(|part| each(&part, shares, |octave, share| share * octave));
+            if k < MIXED {
+                mixed.push(less(&octave, &noise));
+            }
+            for (taken, noise) in taken.iter_mut().zip(&noise) {
+                *taken = each(taken, noise, |taken, noise| taken + noise);
+            }
+            fast = slow;
+        }
+        let [displacement, velocity] = less(&calm, &taken);
+        let noisy = if self.shares.is_empty() { Vec::new() } else { [vec![taken], mixed].concat() };
+        Calm { displacement, velocity, noisy }
+    }
 }
 
 /// A motion that was smoothed.
@@ -67,6 +113,21 @@ fn each(a: &[f64], b: &[f64], of: impl Fn(f64, f64) -> f64) -> Vec<f64> {
 
 fn less(all: &Motion, part: &Motion) -> Motion {
     [0, 1].map(|k| each(&all[k], &part[k], |all, part| all - part))
+}
+
+/// What a wider window takes off a motion.
+fn octave(narrow: &Motion, (wide, half): (&Motion, usize)) -> Motion {
+    let n = narrow[0].len();
+    // Near its ends a recording has windows that are off their middle.
+    let rises = |i: usize| ((i.min(n - 1 - i) as f64 / half as f64) - 1.0).clamp(0.0, 1.0);
+    less(narrow, wide).map(|part| part.iter().enumerate().map(|(i, d)| rises(i) * d).collect())
+}
+
+/// A motion of whose octave beyond a wider window only what is below a frequency in Hz is left.
+fn low_passed(narrow: &Motion, wide: (&Motion, usize), frequency: f64, step: f64) -> Option<Motion> {
+    let octave = octave(narrow, wide);
+    let kept = LowPass::new(frequency, step).over_both(&octave)?;
+    Some(less(narrow, &less(&octave, &kept)))
 }
 
 /// A measured displacement on an even grid, and the variance of its noise.
@@ -93,56 +154,40 @@ impl Noisy<'_> {
         self.measured.iter().zip(&smooth.motion[0]).map(square).sum::<f64>() / self.time.len() as f64
     }
 
-    /// The motion of a window with the low pass, of what a wider one takes off, that has the smallest error.
-    fn low_passed(&self, narrow: &Smooth, wide: &Smooth) -> Smooth {
-        let n = self.time.len();
-        // Near its ends a recording has windows that are off their middle.
-        let rises = |i: usize| ((i.min(n - 1 - i) as f64 / wide.half as f64) - 1.0).clamp(0.0, 1.0);
-        let octave = less(&narrow.motion, &wide.motion)
-            .map(|part| part.iter().enumerate().map(|(i, d)| rises(i) * d).collect());
+    /// The motion of a window with the low pass, of what a wider one takes off, that has the smallest error; and its
+    /// cut-off frequency in Hz, if one is better than none.
+    fn low_passed(&self, narrow: &Smooth, wide: &Smooth) -> (Smooth, Option<f64>) {
         let risk = |smooth: &Smooth| self.left_by(smooth) + 2.0 * self.variance * smooth.share;
         let mut frequency = 0.5 * narrow.share / self.step;
-        let (mut least, mut best) = (risk(narrow), narrow.clone());
+        let (mut least, mut best) = (risk(narrow), (narrow.clone(), None));
         while 2.0 * frequency * self.step > wide.share {
-            let Some(kept) = LowPass::new(frequency, self.step).over_both(&octave) else { break };
-            let motion = less(&narrow.motion, &less(&octave, &kept));
+            let passed = low_passed(&narrow.motion, (&wide.motion, wide.half), frequency, self.step);
+            let Some(motion) = passed else { break };
             let tried = Smooth { motion, half: narrow.half, share: 2.0 * frequency * self.step };
             let of_tried = risk(&tried);
             if of_tried < least {
-                (least, best) = (of_tried, tried);
+                (least, best) = (of_tried, (tried, Some(frequency)));
             }
             frequency /= APART;
         }
         best
     }
 
-    /// Octave by octave from a motion and the next slower one on: what is noise there, and what the fastest have
-    /// besides.
-    fn of_octaves(&self, fastest: &Smooth, next: Smooth) -> (Motion, Vec<Motion>) {
-        let mut mixed = Vec::new();
-        let mut taken = [0, 1].map(|_| vec![0.0; self.time.len()]);
-        let (mut fast, mut slower) = (fastest.clone(), Some(next));
+    /// Octave by octave from a motion and the next slower one on: what share of it is noise, sample by sample.
+    fn shares_of_octaves(&self, fastest: Smooth, next: Smooth) -> Vec<Vec<f64>> {
+        let mut shares = Vec::new();
+        let (mut fast, mut slower) = (fastest, Some(next));
         while let Some(slow) = slower {
             // The kernel of a least squares fit is a polynomial, which a narrower fit keeps.
             let noise = self.variance * (fast.share - slow.share).max(0.0);
-            let mut octave = less(&fast.motion, &slow.motion);
-            let shares: Vec<f64> = around(&octave[0], 2 * slow.half)
-                .into_iter()
-                .map(|square| if square > NOISE * noise { (NOISE * noise / square).powi(2) } else { 1.0 })
-                .collect();
-            for (taken, octave) in taken.iter_mut().zip(&mut octave) {
-                for ((taken, octave), share) in taken.iter_mut().zip(octave).zip(&shares) {
-                    *taken += share * *octave;
-                    *octave *= 1.0 - share;
-                }
-            }
-            if mixed.len() < MIXED {
-                mixed.push(octave);
-            }
+            let octave = each(&fast.motion[0], &slow.motion[0], |fast, slow| fast - slow);
+            let share =
+                |square: f64| if square > NOISE * noise { (NOISE * noise / square).powi(2) } else { 1.0 };
+            shares.push(around(&octave, 2 * slow.half).into_iter().map(share).collect());
             slower = self.smooth(2 * slow.half);
             fast = slow;
         }
-        (taken, mixed)
+        shares
     }
 }
 
@@ -181,7 +226,7 @@ mod tests {
         let measured: Vec<f64> =
             time.iter().map(|t| motion(*t)[0] + size * 12.0_f64.sqrt() * uniform()).collect();
         let derived = from_displacement(&time, &measured);
-        let calm = calmed(&time, &measured, &derived);
+        let calm = Calming::of(&time, &measured, &derived).over(&time, &measured);
         [&derived.velocity, &calm.velocity].map(|velocity| {
             let square = |i: usize| (velocity[i] - motion(time[i])[1]).powi(2);
             (part.clone().map(square).sum::<f64>() / part.len() as f64).sqrt()

@@ -1,0 +1,47 @@
+//! Columns projected off the tangents of a fitted model, and what they are made on.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::shaken::unsure;
+use crate::assembly::Assembly;
+use crate::effect::{Effect, Scene};
+
+/// Columns projected off the tangents of a fitted model.
+pub(super) struct Projection {
+    pub(super) gram: DMatrix<f64>,
+    /// Products with the residual.
+    pub(super) right: DVector<f64>,
+    /// What the noise of the motions is expected to give of them.
+    pub(super) bias: DVector<f64>,
+    /// Squares before the projection.
+    pub(super) squares: Vec<f64>,
+}
+
+impl Projection {
+    /// Strength of a single column, less what the noise of the motions may give of it.
+    pub(super) fn strength(&self, i: usize) -> f64 {
+        let bias = self.bias[i];
+        (self.right[i] - bias * unsure(self.right[i] / bias)) / self.gram[(i, i)].sqrt()
+    }
+}
+
+/// Recordings as a column is made on them: as they are, or with other motions.
+pub(super) struct View<'v, 'a> {
+    pub(super) assembly: &'v Assembly<'a>,
+    /// Force in N of the fitted model, by recording.
+    pub(super) force: Vec<&'v [f64]>,
+}
+
+impl<'a> View<'_, 'a> {
+    /// The model with one more law.
+    pub(super) fn with(&self, effect: &'static dyn Effect) -> Assembly<'a> {
+        let mut effects = self.assembly.effects().to_vec();
+        effects.push(effect);
+        self.assembly.with(effects)
+    }
+
+    /// What effects see of a recording.
+    pub(super) fn scene(&self, r: usize) -> Scene<'_> {
+        self.assembly.scene(r)
+    }
+}
