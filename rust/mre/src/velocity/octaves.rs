@@ -247,6 +247,26 @@ mod tests {
     }
 
     #[test]
+    fn noise_is_smoothed_as_beside_the_motion() {
+        let time: Vec<f64> = (0..SAMPLES).map(|i| i as f64 / 200.0).collect();
+        let measured: Vec<f64> =
+            time.iter().map(|t| 5.0 * (TAU * 2.0 * t).sin() * (-0.5 * t).exp()).collect();
+        // No multiple of a step of the displacement: as good as noise.
+        let noise: Vec<f64> = (0..SAMPLES).map(|i| 0.01 * ((i * i) as f64 * 0.618).sin()).collect();
+        let both = each(&measured, &noise, |a, b| a + b);
+        let calming = Calming::of(&time, &both, &from_displacement(&time, &both));
+        let [all, motion, alone] = [&both, &measured, &noise].map(|series| calming.over(&time, series));
+        let apart = |all: &[f64], a: &[f64], b: &[f64]| {
+            let apart = |((all, a), b): ((&f64, &f64), &f64)| (all - a - b).abs();
+            all.iter().zip(a).zip(b).map(apart).fold(0.0, f64::max)
+        };
+        assert!(apart(&all.displacement, &motion.displacement, &alone.displacement) < 1e-9);
+        assert!(apart(&all.velocity, &motion.velocity, &alone.velocity) < 1e-7);
+        let rms = (noise.iter().map(|e| e * e).sum::<f64>() / SAMPLES as f64).sqrt();
+        assert!((calming.noise / rms - 1.0).abs() < 0.1, "{} of {rms}", calming.noise);
+    }
+
+    #[test]
     fn a_steady_motion_loses_what_is_faster_and_keeps_itself() {
         let motion = |t: f64| {
             let turn = TAU * 3.0;
