@@ -85,8 +85,9 @@ impl Null<'_> {
             shapes.push(physical(&moved));
         }
         let w = score.freedom;
-        let Projection { gram, right, .. } =
-            self.project(w * shapes.len(), |view, r| self.law_columns(view, (score.effect, w), &shapes, r));
+        let Projection { gram, right, .. } = self.project_as_they_are(w * shapes.len(), |view, r| {
+            self.law_columns(view, (score.effect, w), &shapes, r)
+        });
         let effect = score.effect.coefficients();
         let values = if effect.is_empty() {
             vec![1.0; w]

@@ -22,7 +22,7 @@ pub(super) fn lasting(null: &Null) -> Vec<Finding> {
     }
     // Of each recording: the force from a moment on, the whole force first.
     let count = recordings * PARTS;
-    let Projection { gram, right, squares, .. } = null.project(count, |view, r| {
+    let Projection { gram, right, squares, .. } = null.project_as_they_are(count, |view, r| {
         let scene = view.scene(r);
         let n = scene.len();
         let from = |part: usize| {

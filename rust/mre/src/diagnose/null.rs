@@ -37,19 +37,19 @@ impl<'a> Null<'a> {
         let assembly = assembly.knowing(&assembly.physical(unit));
         let mut point = Point::at(&assembly, data, unit.to_vec());
         let known = point.fitted.coefficients.len() + unit.len();
-        let others = Shaken::of(&assembly, data, &point);
+        let mut shaken = Shaken::of(&assembly, data, &point);
         let tangents = tangents_at(&assembly, data, &mut point, known);
         let last = tangents.iter().flatten().map(|(place, _)| place + 1).max();
         let count = last.unwrap_or(0).max(known);
         let mut gram = DMatrix::<f64>::zeros(count, count);
         let mut right = DVector::<f64>::zeros(count);
         let mut bias = DVector::<f64>::zeros(count);
-        let mut shaken = Vec::with_capacity(others.len());
-        for (mut point, other) in others {
-            let there = tangents_at(other.assembly(), data, &mut point, known);
-            other.add(&mut bias, &there, 1.0);
-            other.add(&mut bias, &tangents, -1.0);
-            shaken.push(other);
+        for other in &mut shaken {
+            let there = other.tangents(data, known);
+            for r in 0..there.len() {
+                other.add(r, &mut bias, &there[r], 1.0);
+                other.add(r, &mut bias, &tangents[r], -1.0);
+            }
         }
         bias /= shaken.len().max(1) as f64;
         for (columns, local) in tangents.iter().zip(&point.recordings) {
@@ -93,12 +93,30 @@ impl<'a> Null<'a> {
         self.assembly.scene(r)
     }
 
-    /// Columns projected off the tangents. `columns(view, r)` gives those of a recording with their places among
-    /// `count`.
+    /// Columns projected off the tangents, with the bias of their products. `columns(view, r)` gives those of a
+    /// recording with their places among `count`.
     pub(super) fn project(
         &self,
         count: usize,
+        columns: impl FnMut(&View, usize) -> Vec<(usize, Vec<f64>)>,
+    ) -> Projection {
+        self.projected(count, columns, &self.shaken)
+    }
+
+    /// The same on the recordings as they are alone, without what motions with more noise tell of the bias.
+    pub(super) fn project_as_they_are(
+        &self,
+        count: usize,
+        columns: impl FnMut(&View, usize) -> Vec<(usize, Vec<f64>)>,
+    ) -> Projection {
+        self.projected(count, columns, &[])
+    }
+
+    fn projected(
+        &self,
+        count: usize,
         mut columns: impl FnMut(&View, usize) -> Vec<(usize, Vec<f64>)>,
+        shaken: &[Shaken],
     ) -> Projection {
         let tangent_count = self.scale.len();
         let mut gram = DMatrix::<f64>::zeros(count, count);
@@ -106,6 +124,7 @@ impl<'a> Null<'a> {
         let mut right = DVector::<f64>::zeros(count);
         let mut bias = DVector::<f64>::zeros(count);
         let here = self.view();
+        let there: Vec<View> = shaken.iter().map(Shaken::view).collect();
         let white = |r: usize, (i, series): (usize, Vec<f64>)| {
             (i, whitened(self.data.noise, r, &self.data.rows[r], &series))
         };
@@ -123,14 +142,14 @@ impl<'a> Null<'a> {
                     gram[(*j, *i)] += product;
                 }
             }
-            for other in &self.shaken {
+            for (other, there) in shaken.iter().zip(&there) {
                 let there: Vec<(usize, Vec<f64>)> =
-                    columns(&other.view(), r).into_iter().map(|c| white(r, c)).collect();
-                other.add_in(r, &mut bias, &there, 1.0);
-                other.add_in(r, &mut bias, &own, -1.0);
+                    columns(there, r).into_iter().map(|c| white(r, c)).collect();
+                other.add(r, &mut bias, &there, 1.0);
+                other.add(r, &mut bias, &own, -1.0);
             }
         }
-        bias /= self.shaken.len().max(1) as f64;
+        bias /= shaken.len().max(1) as f64;
         let squares = (0..count).map(|i| gram[(i, i)]).collect();
         let scaled = DMatrix::from_fn(tangent_count, count, |j, i| cross[(j, i)] * self.scale[j]);
         let solved = self.factor.solve(&scaled).transpose();
@@ -144,8 +163,7 @@ impl<'a> Null<'a> {
 
     /// The recordings as they are.
     fn view(&self) -> View<'_, 'a> {
-        let force = self.point.recordings.iter().map(|local| local.force.as_slice()).collect();
-        View { assembly: &self.assembly, force }
+        View::at(&self.assembly, &self.point)
     }
 
     /// True for the recordings as they are.

@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::point::Point;
 use super::shaken::unsure;
 use crate::assembly::Assembly;
 use crate::effect::{Effect, Scene};
@@ -32,7 +33,11 @@ pub(super) struct View<'v, 'a> {
     pub(super) force: Vec<&'v [f64]>,
 }
 
-impl<'a> View<'_, 'a> {
+impl<'v, 'a> View<'v, 'a> {
+    pub(super) fn at(assembly: &'v Assembly<'a>, point: &'v Point) -> Self {
+        Self { assembly, force: point.recordings.iter().map(|local| local.force.as_slice()).collect() }
+    }
+
     /// The model with one more law.
     pub(super) fn with(&self, effect: &'static dyn Effect) -> Assembly<'a> {
         let mut effects = self.assembly.effects().to_vec();

@@ -11,6 +11,7 @@ use super::least_squares::Data;
 use super::normal::whitened;
 use super::point::{Local, Point};
 use super::projection::View;
+use super::tangents::tangents_at;
 use crate::assembly::Assembly;
 use crate::kernel::filter::dot;
 
@@ -29,15 +30,14 @@ pub(super) fn unsure(wanted: f64) -> f64 {
 /// A fitted model on motions with their noise added once more.
 pub(super) struct Shaken<'a> {
     assembly: Assembly<'a>,
-    /// N, by recording.
-    force: Vec<Vec<f64>>,
-    /// What it differs by from the force on the motions themselves, whitened.
+    point: Point,
+    /// What its force differs by from the force on the motions themselves, whitened.
     change: Vec<Vec<f64>>,
 }
 
 impl<'a> Shaken<'a> {
-    /// Some of them, each with the point there; none where the noise is too small to find anything.
-    pub(super) fn of(assembly: &Assembly<'a>, data: Data, point: &Point) -> Vec<(Point, Self)> {
+    /// Some of them; none where the noise is too small to find anything.
+    pub(super) fn of(assembly: &Assembly<'a>, data: Data, point: &Point) -> Vec<Self> {
         let fitted = &point.fitted;
         if assembly.clips(&assembly.physical(&fitted.unit)) {
             return Vec::new();
@@ -51,39 +51,26 @@ impl<'a> Shaken<'a> {
                 whitened(data.noise, r, &data.rows[r], &change)
             };
             let change = there.recordings.iter().zip(&point.recordings).enumerate().map(change).collect();
-            let force = there.recordings.iter().map(|local| local.force.clone()).collect();
-            (there, Self { assembly, force, change })
+            Self { assembly, point: there, change }
         });
-        let all: Vec<(Point, Self)> = there.collect();
-        let squares = |(_, shaken): &(Point, Self)| shaken.change.iter().map(|c| dot(c, c)).sum::<f64>();
+        let all: Vec<Self> = there.collect();
+        let squares = |shaken: &Self| shaken.change.iter().map(|c| dot(c, c)).sum::<f64>();
         let most = all.iter().map(squares).fold(0.0, f64::max);
         if most > LEAST && most.is_finite() { all } else { Vec::new() }
     }
 
-    pub(super) fn assembly(&self) -> &Assembly<'a> {
-        &self.assembly
+    /// All tangents there; the point's own columns are taken for them.
+    pub(super) fn tangents(&mut self, data: Data, known: usize) -> Vec<Vec<(usize, Vec<f64>)>> {
+        tangents_at(&self.assembly, data, &mut self.point, known)
     }
 
     /// The recordings with these motions.
     pub(super) fn view(&self) -> View<'_, 'a> {
-        View { assembly: &self.assembly, force: self.force.iter().map(Vec::as_slice).collect() }
+        View::at(&self.assembly, &self.point)
     }
 
-    /// Add products of whitened columns with the residual that the noise leaves, by their places.
-    pub(super) fn add(&self, sums: &mut DVector<f64>, columns: &[Vec<(usize, Vec<f64>)>], times: f64) {
-        for (r, columns) in columns.iter().enumerate() {
-            self.add_in(r, sums, columns, times);
-        }
-    }
-
-    /// The same of one recording.
-    pub(super) fn add_in(
-        &self,
-        r: usize,
-        sums: &mut DVector<f64>,
-        columns: &[(usize, Vec<f64>)],
-        times: f64,
-    ) {
+    /// Add products of whitened columns of a recording with the residual that the noise leaves, by their places.
+    pub(super) fn add(&self, r: usize, sums: &mut DVector<f64>, columns: &[(usize, Vec<f64>)], times: f64) {
         for (place, column) in columns {
             // Noise may fall into more parts in one draw than in another.
             if let Some(sum) = sums.get_mut(*place) {

@@ -97,13 +97,13 @@ fn surface(null: &Null) -> (Map, f64, f64, f64) {
     let count = (ACROSS + 1) * (UP + 1);
     let recordings = null.assembly().campaign().recordings().len();
     let mut visits = vec![0.0; count];
-    let Projection { gram, right, .. } = null.project(count, |view, r| {
+    let Projection { gram, right, .. } = null.project_as_they_are(count, |view, r| {
         let scene = view.scene(r);
         let mut columns: Vec<(usize, Vec<f64>)> = (0..count).map(|k| (k, vec![0.0; scene.len()])).collect();
         for i in 0..scene.len() {
             for (k, value) in hats(&scene, i) {
                 columns[k].1[i] += value;
-                visits[k] += if null.is_own(view) { value } else { 0.0 };
+                visits[k] += value;
             }
         }
         columns.retain(|(_, column)| column.iter().any(|v| *v != 0.0));
