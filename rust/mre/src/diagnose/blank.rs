@@ -12,7 +12,6 @@ use super::diagnosis::Diagnosis;
 use super::judge::judge;
 use super::monitor::{Monitor, Stage};
 use super::normal::Rows;
-use super::realisation::realisation;
 use super::search::Search;
 use super::settings::Settings;
 use super::splits::Splits;
@@ -145,8 +144,7 @@ fn simulated(found: &Diagnosis, force: &[Vec<f64>], seed: u64, number: usize) ->
     let recordings = known.recordings().iter().zip(force).enumerate().map(|(r, (recording, force))| {
         let mut stream = ChaCha8Rng::seed_from_u64(seed);
         stream.set_stream((1 + number * count + r) as u64);
-        let (coefficients, deviation) = found.named.noise.autoregression(r);
-        let noise = realisation(coefficients, deviation, force.len(), &mut stream);
+        let noise = found.named.noise.realisation(r, force.len(), &mut stream);
         let measured = force.iter().zip(noise).map(|(f, e)| match quantum {
             Some(step) => ((f + e) / step).round() * step,
             None => f + e,

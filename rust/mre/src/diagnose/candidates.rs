@@ -3,8 +3,10 @@
 
 use rayon::prelude::*;
 
+use super::above::fastest;
 use super::coherent::without_the_coherent;
-use super::drift::without_drift;
+use super::drift::{beside, without_drift};
+use super::extrapolated::{Beside, Extent};
 use super::gaps::LeftOut;
 use super::held::Held;
 use super::joint::{joint, unbent};
@@ -109,7 +111,9 @@ pub(super) fn noise_left(assembly: &Assembly, data: Data, fitted: &Fitted) -> No
     let left_out: Vec<LeftOut> = (0..left.len()).map(|r| LeftOut::of(campaign, r)).collect();
     let left = without_the_coherent(assembly, left);
     let calm = calm(assembly, &left);
-    Noise::of(&without_drift(&left, &calm), &steps(assembly), freedom, &left_out)
+    let steps = steps(assembly);
+    let slow = Extent::of(&left, &steps, fastest(campaign), Beside::of(&left, &beside(&left, &calm)));
+    Noise::of(&without_drift(&left, &calm), &steps, freedom, &left_out, |r, k| slow.power(r, k))
 }
 
 /// Scores of every law beside a fitted model.

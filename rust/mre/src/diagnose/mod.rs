@@ -4,6 +4,7 @@
 //! predict. The base model is refitted together with every candidate, because its parameters bend
 //! to hide an effect.
 
+mod above;
 mod absorbed;
 mod alternatives;
 mod autoregression;
@@ -20,7 +21,9 @@ mod distribution;
 mod drift;
 mod exchange;
 mod explained;
+mod extrapolated;
 mod features;
+mod filters;
 mod firsts;
 mod gaps;
 mod held;
@@ -56,6 +59,7 @@ mod settings;
 mod shaken;
 mod sizes;
 mod slow;
+mod spectrum;
 mod splits;
 mod starts;
 mod step;
@@ -65,6 +69,7 @@ mod uneven;
 mod unknown;
 mod unnamed;
 mod verdict;
+mod wander;
 mod worth;
 
 pub use absorbed::Absorbed;

@@ -1,0 +1,79 @@
+//! Autoregressions of the recordings of a campaign.
+
+use rayon::prelude::*;
+
+use super::autoregression::{Choice, Products};
+use super::gaps::{Gaps, LeftOut};
+use super::hum::without_hum;
+use crate::kernel::filter::{dot, prediction_error};
+
+/// Rates that differ by less than this share are one.
+const SAME_RATE: f64 = 0.01;
+
+/// The autoregression of a recording.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Filter {
+    pub(super) coefficients: Vec<f64>,
+    /// Inverse of the standard deviation of what cannot be predicted, 1/N.
+    pub(super) scale: f64,
+    /// Coefficients for each sample that they were estimated from.
+    pub(super) density: f64,
+}
+
+/// Those of residuals in N, with the gaps in their recordings; as of [`super::noise::Noise::of`].
+pub(super) fn filters(
+    residuals: &[Vec<f64>],
+    steps: &[f64],
+    freedom: usize,
+    left_out: &[LeftOut],
+) -> (Vec<Filter>, Vec<Gaps>) {
+    let products: Vec<Products> = residuals
+        .par_iter()
+        .zip(steps)
+        .map(|(e, step)| Products::of(&without_hum(e, *step), *step))
+        .collect();
+    let total: usize = residuals.iter().map(Vec::len).sum();
+    let mut filters: Vec<Option<Filter>> = vec![None; residuals.len()];
+    let mut gaps = vec![Gaps::none(); residuals.len()];
+    for r in 0..residuals.len() {
+        if filters[r].is_some() {
+            continue;
+        }
+        let alike: Vec<usize> = (r..residuals.len())
+            .filter(|s| (steps[*s] / steps[r] - 1.0).abs() < SAME_RATE)
+            .filter(|s| products[*s].order() == products[r].order())
+            .collect();
+        let own: Vec<Choice> = alike.iter().map(|s| Choice::best(&[&products[*s]])).collect();
+        let together = Choice::best(&alike.iter().map(|s| &products[*s]).collect::<Vec<_>>());
+        let of_alike: usize = alike.iter().map(|s| residuals[*s].len()).sum();
+        let shared = together.criterion <= own.iter().map(|c| c.criterion).sum();
+        for (k, s) in alike.iter().enumerate() {
+            let choice = if shared { &together } else { &own[k] };
+            let share = freedom as f64 * residuals[*s].len() as f64 / total as f64;
+            let (members, from) = if shared { (alike.len(), of_alike) } else { (1, residuals[*s].len()) };
+            let order = choice.coefficients.len() as f64;
+            let used = share + order / members as f64;
+            let (filter, gap) = Filter::of(&residuals[*s], steps[*s], choice, used, &left_out[*s]);
+            let filter = Filter { density: order / from as f64, ..filter };
+            (filters[*s], gaps[*s]) = (Some(filter), gap);
+        }
+    }
+    (filters.into_iter().flatten().collect(), gaps)
+}
+
+impl Filter {
+    fn of(residual: &[f64], step: f64, choice: &Choice, used: f64, left_out: &LeftOut) -> (Self, Gaps) {
+        let coefficients = choice.coefficients.clone();
+        let floor = dot(residual, residual) / residual.len() as f64;
+        let mut errors = prediction_error(&without_hum(residual, step), &coefficients, 1.0);
+        let gaps = left_out.gaps_of_the_scored(&coefficients, 1.0);
+        gaps.leave_out(&mut errors);
+        let left = (errors.len() as f64 - used - gaps.count() as f64).max(0.5 * errors.len() as f64);
+        let variance = dot(&errors, &errors) / left;
+        // A residual of zeros is no noise: keep the numbers finite.
+        let variance = variance.max(1e-24 * floor).max(f64::MIN_POSITIVE);
+        let scale = 1.0 / variance.sqrt();
+        let whole = left_out.gaps(&coefficients, scale);
+        (Self { coefficients, scale, density: 0.0 }, whole)
+    }
+}
