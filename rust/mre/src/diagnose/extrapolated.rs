@@ -9,7 +9,7 @@ use std::ops::{Range, RangeInclusive};
 
 use super::above::above;
 use super::hum::without_hum;
-use super::spectrum::{Band, Shape, amplitudes};
+use super::spectrum::{Band, Shape, amplitudes, gaussian, heavy_tailed};
 use crate::effect::DRIFT;
 use crate::kernel::filter::dot;
 
@@ -22,7 +22,7 @@ const CORNERS: [f64; 8] = [0.0, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0];
 pub(super) struct Beside {
     /// Squares of the mean and the half-cosines of a drift.
     slow: Vec<Vec<f64>>,
-    extrapolated: Extrapolated,
+    band: Band,
 }
 
 /// A band with the shapes that it may have.
@@ -45,10 +45,7 @@ impl Beside {
         let square = |e: &Vec<f64>| amplitudes(e, &places).into_iter().map(|a| a * a).collect();
         let level: Vec<Vec<f64>> = noise.iter().map(|e| without_line(e)).collect();
         let places = level.iter().map(|e| (BESIDE.start..BESIDE.end.min(e.len() / 2)).collect()).collect();
-        Self {
-            slow: residuals.iter().map(square).collect(),
-            extrapolated: Extrapolated::of(Band::of(&level, places), &CORNERS),
-        }
+        Self { slow: residuals.iter().map(square).collect(), band: Band::of(&level, places) }
     }
 
     /// Number of residuals.
@@ -58,14 +55,13 @@ impl Beside {
 
     /// Squares of slow half-cosines of all residuals over what noise may have, the most that it may.
     pub(super) fn over(&self, slow: &RangeInclusive<usize>) -> f64 {
-        let Extrapolated { band, shapes } = &self.extrapolated;
         let over = |shape: &Shape| {
             let own = |(r, squares): (usize, &Vec<f64>)| {
-                slow.clone().filter_map(|k| Some(squares[k] / band.power(shape, r, k)?)).sum::<f64>()
+                slow.clone().filter_map(|k| Some(squares[k] / self.band.power(shape, r, k)?)).sum::<f64>()
             };
             self.slow.iter().enumerate().map(own).sum::<f64>()
         };
-        shapes.iter().map(over).fold(f64::INFINITY, f64::min)
+        self.band.possible(&CORNERS, gaussian).iter().map(over).fold(f64::INFINITY, f64::min)
     }
 }
 
@@ -78,8 +74,15 @@ impl Extent {
         let longest = calm.iter().map(Vec::len).max().unwrap_or(1);
         let octaves = (0..=longest.ilog2()).map(|octave| f64::from(1_u32 << octave));
         let corners: Vec<f64> = iter::once(0.0).chain(octaves).collect();
-        let above = Extrapolated::of(Band::of(&calm, places), &corners);
-        Self { beside: beside.extrapolated, above }
+        let extrapolated = |band: Band, corners: &[f64]| {
+            // What a model leaves unexplained has lines at the harmonics of a sine.
+            let shapes = band.possible(corners, heavy_tailed);
+            Extrapolated { band, shapes }
+        };
+        Self {
+            beside: extrapolated(beside.band, &CORNERS),
+            above: extrapolated(Band::of(&calm, places), &corners),
+        }
     }
 
     /// The most that the mean square of half-cosine `k` of a residual may be, N^2; `None` where it is not known.
@@ -90,11 +93,6 @@ impl Extent {
 }
 
 impl Extrapolated {
-    fn of(band: Band, corners: &[f64]) -> Self {
-        let shapes = band.possible(corners);
-        Self { band, shapes }
-    }
-
     fn most(&self, r: usize, k: usize) -> Option<f64> {
         let power = |shape: &Shape| self.band.power(shape, r, k);
         match self.shapes.iter().find(|shape| shape.is_flat()) {
@@ -149,7 +147,7 @@ mod tests {
     #[test]
     fn white_noise_extends_to_itself() {
         for k in [0, 1, 4, 12] {
-            assert!((power(&recordings(&[0.0]), k) - 1.0).abs() < 0.15, "{}", power(&recordings(&[0.0]), k));
+            assert!((power(&recordings(&[0.0]), k) - 1.0).abs() < 0.3, "{}", power(&recordings(&[0.0]), k));
         }
     }
 
@@ -172,7 +170,7 @@ mod tests {
             }
         }
         let beside = Beside::of(&residuals, &residuals);
-        assert!(beside.extrapolated.most(0, 2).unwrap_or(0.0) > 3.0);
-        assert!((power(&residuals, 2) - 1.0).abs() < 0.15, "{}", power(&residuals, 2));
+        assert!(beside.band.possible(&CORNERS, gaussian).iter().all(|shape| !shape.is_flat()));
+        assert!((power(&residuals, 2) - 1.0).abs() < 0.3, "{}", power(&residuals, 2));
     }
 }

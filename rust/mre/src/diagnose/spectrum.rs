@@ -14,8 +14,17 @@ const PLACE_OF_THE_MEAN: f64 = 0.1;
 const STEEPNESS: RangeInclusive<u32> = 0..=22;
 /// Spectra whose deviance (minus twice the logarithm of the likelihood) is this much above the least are possible.
 const POSSIBLE: f64 = 4.0;
+/// Degrees of freedom of Student's t.
+const FREEDOM: f64 = 4.0;
+/// Squared scale of it that fits normal amplitudes of unit variance best.
+const OF_NORMAL: f64 = 0.690_57;
+/// Rounds in which its scale is found.
+const ROUNDS: usize = 12;
 /// Half-cosines of a series, at least: fewer tell nothing of it.
 const FEWEST: usize = 6;
+
+/// The level of amplitudes with the largest likelihood, and minus twice the logarithm of that, by their squares.
+type Likelihood = fn(&[f64]) -> (f64, f64);
 
 /// Some half-cosines of every series.
 pub(super) struct Band {
@@ -52,11 +61,11 @@ impl Band {
     }
 
     /// The shapes whose likelihood is about the largest, of those with corners at these half-cosines of the longest.
-    pub(super) fn possible(&self, corners: &[f64]) -> Vec<Shape> {
+    pub(super) fn possible(&self, corners: &[f64], likelihood: Likelihood) -> Vec<Shape> {
         let mut shapes: Vec<Shape> = corners
             .par_iter()
             .flat_map_iter(|corner| STEEPNESS.map(move |tenths| (*corner, f64::from(tenths) / 10.0)))
-            .map(|(corner, steepness)| self.shape(corner, steepness))
+            .map(|(corner, steepness)| self.shape(corner, steepness, likelihood))
             .collect();
         let least = shapes.iter().map(|s| s.deviance).fold(f64::INFINITY, f64::min);
         shapes.retain(|s| s.deviance <= least + POSSIBLE);
@@ -75,22 +84,40 @@ impl Band {
         (place * place + corner * corner).powf(-0.5 * steepness)
     }
 
-    fn shape(&self, corner: f64, steepness: f64) -> Shape {
+    fn shape(&self, corner: f64, steepness: f64, likelihood: Likelihood) -> Shape {
         let mut deviance = 0.0;
         let own = |(r, places): (usize, &Vec<usize>)| {
             if places.len() < FEWEST {
                 return None;
             }
             let power: Vec<f64> = places.iter().map(|k| self.relative(corner, steepness, r, *k)).collect();
-            let count = power.len() as f64;
             let over = self.squares[r].iter().zip(&power).map(|(square, power)| square / power);
-            let level = (over.sum::<f64>() / count).max(f64::MIN_POSITIVE);
-            deviance += count * level.ln() + power.iter().map(|power| power.ln()).sum::<f64>();
+            let (level, own) = likelihood(&over.collect::<Vec<f64>>());
+            deviance += own + power.iter().map(|power| power.ln()).sum::<f64>();
             Some(level)
         };
         let levels = self.places.iter().enumerate().map(own).collect();
         Shape { corner, steepness, levels, deviance }
     }
+}
+
+/// Variance and deviance of normal values, by their squares.
+pub(super) fn gaussian(squares: &[f64]) -> (f64, f64) {
+    let count = squares.len() as f64;
+    let level = (squares.iter().sum::<f64>() / count).max(f64::MIN_POSITIVE);
+    (level, count * level.ln())
+}
+
+/// The same of values beside a few that are none of them: as of Student's t, of which some are large.
+pub(super) fn heavy_tailed(squares: &[f64]) -> (f64, f64) {
+    let count = squares.len() as f64;
+    let (mut scale, _) = gaussian(squares);
+    for _ in 0..ROUNDS {
+        let weighed = squares.iter().map(|square| (FREEDOM + 1.0) * square / (FREEDOM + square / scale));
+        scale = (weighed.sum::<f64>() / count).max(f64::MIN_POSITIVE);
+    }
+    let own = |square: &f64| (FREEDOM + 1.0) * (square / (FREEDOM * scale)).ln_1p() + scale.ln();
+    (scale / OF_NORMAL, squares.iter().map(own).sum())
 }
 
 /// Half-cosine `k` at a sample, of unit square over `n` samples; the mean for `k = 0`.
