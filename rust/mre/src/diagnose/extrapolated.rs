@@ -71,7 +71,7 @@ impl Extent {
     pub(super) fn of(residuals: &[Vec<f64>], steps: &[f64], motion: f64, beside: Beside) -> Self {
         let calm: Vec<Vec<f64>> = residuals.iter().zip(steps).map(|(e, s)| without_hum(e, *s)).collect();
         let places = calm.iter().zip(steps).map(|(e, step)| above(motion, e.len(), *step)).collect();
-        let longest = calm.iter().map(Vec::len).max().unwrap_or(1);
+        let longest = calm.iter().map(Vec::len).fold(1, usize::max);
         let octaves = (0..=longest.ilog2()).map(|octave| f64::from(1_u32 << octave));
         let corners: Vec<f64> = iter::once(0.0).chain(octaves).collect();
         let extrapolated = |band: Band, corners: &[f64]| {

@@ -142,3 +142,34 @@ pub(super) fn amplitudes(series: &[f64], places: &[usize]) -> Vec<f64> {
     let norm = |k: &usize| if *k == 0 { n.sqrt().recip() } else { (2.0 / n).sqrt() };
     sums.iter().zip(places).map(|(sum, k)| norm(k) * sum).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use rand_chacha::ChaCha8Rng;
+    use rand_core::SeedableRng;
+
+    use super::*;
+    use crate::deviate;
+
+    #[test]
+    fn half_cosines_are_found_at_any_place() {
+        let series: Vec<f64> =
+            (0..300).map(|i| 2.0 * wave(300, 0, f64::from(i)) - 3.0 * wave(300, 7, f64::from(i))).collect();
+        let found = amplitudes(&series, &[0, 3, 7, 150]);
+        for (found, wanted) in found.iter().zip([2.0, 0.0, -3.0, 0.0]) {
+            assert!((found - wanted).abs() < 1e-10, "{found} for {wanted}");
+        }
+    }
+
+    #[test]
+    fn a_few_lines_hardly_change_the_level() {
+        let mut random = ChaCha8Rng::seed_from_u64(2);
+        let mut squares: Vec<f64> = (0..4_000).map(|_| 3.0 * deviate::normal(&mut random).powi(2)).collect();
+        let (plain, _) = gaussian(&squares);
+        let (level, _) = heavy_tailed(&squares);
+        assert!((level / plain - 1.0).abs() < 0.03, "{level} for {plain}");
+        squares[..100].fill(3e4);
+        let (beside, _) = heavy_tailed(&squares);
+        assert!(gaussian(&squares).0 > 100.0 * level && beside < 1.2 * level, "{beside} for {level}");
+    }
+}
