@@ -110,10 +110,12 @@ pub(super) fn noise_left(assembly: &Assembly, data: Data, fitted: &Fitted) -> No
     let campaign = assembly.campaign();
     let left_out: Vec<LeftOut> = (0..left.len()).map(|r| LeftOut::of(campaign, r)).collect();
     let left = without_the_coherent(assembly, left);
-    let calm = calm(assembly, &left);
+    let beside = beside(&left, &calm(assembly, &left));
+    let spectra = Beside::of(&left, &beside);
+    let calm = without_drift(&left, &beside, &spectra);
     let steps = steps(assembly);
-    let slow = Extent::of(&left, &steps, fastest(campaign), Beside::of(&left, &beside(&left, &calm)));
-    Noise::of(&without_drift(&left, &calm), &steps, freedom, &left_out, |r, k| slow.power(r, k))
+    let slow = Extent::of(&left, &steps, fastest(campaign), spectra);
+    Noise::of(&calm, &steps, freedom, &left_out, |r, k| slow.power(r, k))
 }
 
 /// Scores of every law beside a fitted model.

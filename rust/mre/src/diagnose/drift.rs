@@ -19,13 +19,11 @@ const ALIKE: f64 = 1e-9;
 /// Caution: the extrapolated power is taken so many times as large.
 const CAUTION: f64 = 1.25;
 
-/// The residuals without their drift and their means, if there is one; `calm` are those of recordings that start in
-/// motion, without a line.
-pub(super) fn without_drift(residuals: &[Vec<f64>], calm: &[Option<Vec<f64>>]) -> Vec<Vec<f64>> {
-    let beside = beside(residuals, calm);
-    let spectra = Beside::of(residuals, &beside);
-    let drifts = chance_of(&spectra, &DRIFT) <= CHANCE;
-    if !drifts && chance_of(&spectra, &MEAN) > CHANCE {
+/// The residuals without their drift and their means, if there is one; `beside` is what they have [`beside`] a drift,
+/// and `spectra` are those of both.
+pub(super) fn without_drift(residuals: &[Vec<f64>], beside: &[Vec<f64>], spectra: &Beside) -> Vec<Vec<f64>> {
+    let drifts = chance_of(spectra, &DRIFT) <= CHANCE;
+    if !drifts && chance_of(spectra, &MEAN) > CHANCE {
         return residuals.to_vec();
     }
     let calmed = |e: &Vec<f64>| {
@@ -121,8 +119,8 @@ mod tests {
         let off: Vec<Vec<f64>> = noise.iter().map(|e| e.iter().map(|e| e + 7.0).collect()).collect();
         assert!(chance(&off) > 0.01);
         assert!(chance_beside(&off, &off, &MEAN) < 1e-6);
-        let left = without_drift(&off, &vec![None; off.len()]);
-        assert_eq!(without_drift(&noise, &vec![None; off.len()]), noise);
+        let left = without_drift(&off, &off, &Beside::of(&off, &off));
+        assert_eq!(without_drift(&noise, &noise, &Beside::of(&noise, &noise)), noise);
         for (left, noise) in left.iter().zip(&noise) {
             let mean = noise.iter().sum::<f64>() / noise.len() as f64;
             assert!(left.iter().zip(noise).all(|(left, e)| (left - (e - mean)).abs() < 1e-6));
