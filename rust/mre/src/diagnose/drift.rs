@@ -14,6 +14,9 @@ use crate::effect::{DRIFT, MEAN};
 
 /// Chance of an excess by noise below which it is a drift.
 const CHANCE: f64 = 1e-4;
+/// Time constants of what settles, as shares of a recording: an autoregression that has seen the rest of it would
+/// turn it into a constant.
+const SETTLING: [f64; 3] = [0.05, 0.15, 0.5];
 /// Ridge on slow columns, which are much alike, as a share of their squares.
 const ALIKE: f64 = 1e-9;
 /// Caution: the extrapolated power is taken so many times as large.
@@ -45,10 +48,11 @@ pub(super) fn beside(residuals: &[Vec<f64>], calm: &[Option<Vec<f64>>]) -> Vec<V
     residuals.iter().zip(calm).map(|(e, calm)| calm.as_ref().unwrap_or(e).clone()).collect()
 }
 
-/// A mean, a line and the slow half-cosines over `n` samples.
+/// A mean, a line, the slow half-cosines and what settles over `n` samples.
 fn slow_columns(n: usize) -> Vec<Vec<f64>> {
     let waves = DRIFT.map(|k| (0..n).map(|i| wave(n, k, i as f64)).collect());
-    line(n).into_iter().chain(waves).collect()
+    let settling = SETTLING.map(|share| (0..n).map(|i| (-(i as f64) / (share * n as f64)).exp()).collect());
+    line(n).into_iter().chain(waves).chain(settling).collect()
 }
 
 /// A mean and a slope over `n` samples.
@@ -124,6 +128,22 @@ mod tests {
         for (left, noise) in left.iter().zip(&noise) {
             let mean = noise.iter().sum::<f64>() / noise.len() as f64;
             assert!(left.iter().zip(noise).all(|(left, e)| (left - (e - mean)).abs() < 1e-6));
+        }
+    }
+
+    #[test]
+    fn what_settles_leaves_the_noise_alone() {
+        let noise = recordings(&[0.0], 1);
+        for share in [0.1, 0.15, 0.3, 1.0] {
+            let settling = |e: &Vec<f64>| {
+                let n = e.len() as f64;
+                e.iter().enumerate().map(|(i, e)| e + 15.0 * (-(i as f64) / (share * n)).exp()).collect()
+            };
+            let settling: Vec<Vec<f64>> = noise.iter().map(settling).collect();
+            let left = without_drift(&settling, &settling, &Beside::of(&settling, &settling));
+            let square = |series: &[Vec<f64>]| series.iter().flatten().map(|e| e * e).sum::<f64>();
+            let ratio = square(&left) / square(&noise);
+            assert!((0.98..1.0).contains(&ratio), "{ratio} at {share}");
         }
     }
 
