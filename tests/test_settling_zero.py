@@ -23,7 +23,7 @@ def settling(time_constant: float) -> list[Recording]:
     return recordings
 
 
-@pytest.mark.parametrize("time_constant", [1.5, 3.0])
+@pytest.mark.parametrize("time_constant", [0.5, 1.5, 3.0])
 def test_a_settling_zero_is_named_and_leaves_the_noise(time_constant: float) -> None:
     found = diagnose(settling(time_constant), base="kelvin_voigt", seed=1)
     assert [(effect.id, effect.law) for effect in found.effects] == [("force_drift", "settling")], found

@@ -9,6 +9,7 @@ use std::ops::RangeInclusive;
 use super::distribution::chi_square_tail;
 use super::explained::unexplained;
 use super::extrapolated::Beside;
+use super::settling::settles;
 use super::spectrum::wave;
 use crate::effect::{DRIFT, MEAN};
 
@@ -16,7 +17,7 @@ use crate::effect::{DRIFT, MEAN};
 const CHANCE: f64 = 1e-4;
 /// Time constants of what settles, as shares of a recording: an autoregression that has seen the rest of it would
 /// turn it into a constant.
-const SETTLING: [f64; 3] = [0.05, 0.15, 0.5];
+const SETTLING: [f64; 4] = [0.02, 0.06, 0.15, 0.5];
 /// Ridge on slow columns, which are much alike, as a share of their squares.
 const ALIKE: f64 = 1e-9;
 /// Caution: the extrapolated power is taken so many times as large.
@@ -25,7 +26,7 @@ const CAUTION: f64 = 1.25;
 /// The residuals without their drift and their means, if there is one; `beside` is what they have [`beside`] a drift,
 /// and `spectra` are those of both.
 pub(super) fn without_drift(residuals: &[Vec<f64>], beside: &[Vec<f64>], spectra: &Beside) -> Vec<Vec<f64>> {
-    let drifts = chance_of(spectra, &DRIFT) <= CHANCE;
+    let drifts = chance_of(spectra, &DRIFT) <= CHANCE || settles(beside);
     if !drifts && chance_of(spectra, &MEAN) > CHANCE {
         return residuals.to_vec();
     }

@@ -56,6 +56,7 @@ mod run;
 mod screen;
 mod search;
 mod settings;
+mod settling;
 mod shaken;
 mod sizes;
 mod slow;
