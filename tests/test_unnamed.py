@@ -1,10 +1,14 @@
 """What no effect of the catalogue has gets no name, and noise of the displacement is no physics."""
 
+from collections.abc import Callable
+
 import mre_core
 import numpy as np
 import pytest
 from mre_core import Diagnosis, Recording, simulate
 from rig import made_of
+
+Law = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
 RATE = 200.0
 SPRING = made_of("kelvin_voigt", {"c0": 0.3, "k0": 6.0, "F0": 0.5})
@@ -31,12 +35,17 @@ def slow(rng: np.random.Generator, count: int) -> np.ndarray:
     return noise[400:]
 
 
-def diagnosed(size: float, *, shaken: float = 0.0, coloured: bool = False) -> Diagnosis:
-    """A spring and a dashpot, and a damping that grows with the square of the displacement."""
+def growing(x: np.ndarray, v: np.ndarray) -> np.ndarray:
+    """Damping force that grows with the square of the displacement."""
+    return x**2 * v
+
+
+def diagnosed(size: float, law: Law = growing, *, shaken: float = 0.0, coloured: bool = False) -> Diagnosis:
+    """A spring and a dashpot, and a further force."""
     recordings = []
     for seed, motion in enumerate(MOTIONS):
         rng = np.random.default_rng(seed)
-        force = simulate(SPRING, motion) + size * motion.displacement**2 * motion.velocity
+        force = simulate(SPRING, motion) + size * law(motion.displacement, motion.velocity)
         count = len(force)
         noise = slow(rng, count) if coloured else rng.normal(size=count)
         force = force + 0.2 * noise
@@ -51,6 +60,17 @@ def test_a_viscosity_that_grows_with_the_displacement_gets_no_name(size: float) 
     assert found.verdict == "unexplained", [e.id for e in found.effects]
     assert found.unknown is not None
     assert found.unknown["depends_on"][0]["on"] == "state"
+
+
+@pytest.mark.parametrize("size", [0.01, 0.1])
+@pytest.mark.parametrize(
+    "law", [lambda _, v: np.abs(v), lambda _, v: v**2 / 15, lambda _, v: np.maximum(v, 0) ** 2 / 15]
+)
+def test_a_damping_of_another_size_in_each_direction_is_no_drift(size: float, law: Law) -> None:
+    found = diagnosed(size, law)
+    assert found.verdict == "unexplained", [e.id for e in found.effects]
+    assert found.unknown is not None
+    assert found.unknown["depends_on"][0]["on"] == "velocity"
 
 
 def test_noise_of_the_displacement_is_taken_off() -> None:

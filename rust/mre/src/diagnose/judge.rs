@@ -16,7 +16,7 @@ use super::search::{Named, rms};
 use super::strained::any_strained;
 use super::uneven::Uneven;
 use super::unnamed::{self, Unnamed};
-use super::verdict::{Against, Evidence, Tests, Verdict};
+use super::verdict::{Against, BEYOND_CHANCE, Evidence, Tests, Verdict};
 use crate::assembly::Assembly;
 
 /// A model with what speaks for and against it.
@@ -94,9 +94,10 @@ fn alone<'a>(
     let effects = named.assembly.effects().len() - begun.assembly.effects().len() - hum;
     let parameters = named.fitted.parameters() - before.parameters();
     let improvement = explained - parameters as f64 * (base.rows as f64).ln();
-    // A drift has parameters in every recording, and even smooth forces have a slow part.
+    // A drift has parameters in every recording, and even smooth forces have a slow part: it has to leave something.
     let drifts = named.assembly.effects().iter().any(|e| e.slow().is_some() && e.of_the_measurement());
-    let surpassed = effects > 0 && !drifts && of_all.improvement > improvement + CLEAR;
+    let whole = drifts && rest.cautious() > BEYOND_CHANCE;
+    let surpassed = effects > 0 && !whole && of_all.improvement > improvement + CLEAR;
     let wandering = last.as_ref().map_or(Mismatch::NONE, Null::wandering);
     let odd = last.as_ref().map_or(Mismatch::NONE, Null::odd_recording);
     let uneven = last.as_ref().and_then(Null::uneven).unwrap_or(Uneven::NONE);

@@ -17,7 +17,7 @@ const SEEN: [f64; 2] = [0.005, 0.1];
 const OF_ANY: f64 = 5.0;
 
 /// Names are doubted only where the rest is beyond chance by far: a small one may be the noise's.
-const BEYOND_CHANCE: f64 = 1e-3;
+pub(super) const BEYOND_CHANCE: f64 = 1e-3;
 
 /// The noise has swallowed a mismatch where its size follows the motion beyond chance by as far.
 const PLAINLY_UNEVEN: f64 = 1e-6;
