@@ -37,7 +37,8 @@ def slow(rng: np.random.Generator, count: int) -> np.ndarray:
 
 def growing(x: np.ndarray, v: np.ndarray) -> np.ndarray:
     """Damping force that grows with the square of the displacement."""
-    return x**2 * v
+    force: np.ndarray = x**2 * v
+    return force
 
 
 def diagnosed(size: float, law: Law = growing, *, shaken: float = 0.0, coloured: bool = False) -> Diagnosis:
