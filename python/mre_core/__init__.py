@@ -83,6 +83,7 @@ __all__ = [
     "loops",
     "mafsa",
     "models",
+    "one_specimen",
     "plot_parameters",
     "profile",
     "pso",
@@ -115,6 +116,7 @@ _HOMES = {
     "measure": "Fit",
     "model": "Level Model simulate",
     "results": "Parameter StopReason SwarmResult",
+    "specimen": "one_specimen",
     "swarms": "afsa mafsa pso",
     "uncertainty": "Bootstrap Estimate Profile Uncertainty bootstrap profile uncertainty",
 }

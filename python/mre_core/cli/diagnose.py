@@ -22,6 +22,11 @@ if TYPE_CHECKING:
     help="kelvin_voigt, sinh, bouc_wen, a model.json, or simulated (a column of that role).",
 )
 @click.option("--fixed", is_flag=True, help="Keep the parameters of a model.json as they are.")
+@click.option(
+    "--one-specimen",
+    is_flag=True,
+    help="The recordings follow each other on one specimen, in this order: wear and softening go on.",
+)
 @click.option("--out", type=click.Path(path_type=Path), metavar="DIR", help="Folder for the results.")
 @click.option(
     "--false-alarm",
@@ -57,6 +62,7 @@ if TYPE_CHECKING:
 def diagnose(
     recordings: tuple[str, ...],
     base: str,
+    one_specimen: bool,
     out: Path | None,
     cut: str | None,
     exclude: str | None,
@@ -82,6 +88,7 @@ def diagnose(
     from ..diagnose import DONE
     from ..diagnose import diagnose as run
     from ..output import Stage, staged, to_json
+    from ..specimen import one_specimen as in_order
     from .interrupts import interrupts
     from .limits import limits_of
     from .settings import write_settings
@@ -90,7 +97,7 @@ def diagnose(
 
     with interrupts() as signals:
         loaded = load_all(recordings, mapping, conditions, name_pattern, reading)
-        loaded = trimmed(loaded, cut, exclude)
+        loaded = trimmed(in_order(loaded) if one_specimen else loaded, cut, exclude)
         place = staged(out) if out is not None else nullcontext()
         with place as stage:
             with stages("diagnosing", quiet=quiet) as show:

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from .arguments import load_motion
+from .arguments import load_all, load_motion
 from .options import WHOLE, common_options
 
 
@@ -12,6 +12,13 @@ from .options import WHOLE, common_options
 @click.argument("model")
 @click.argument("recording")
 @click.option("--out", required=True, type=click.Path(path_type=Path), metavar="FILE", help="CSV to write.")
+@click.option(
+    "--after",
+    "earlier",
+    multiple=True,
+    metavar="FILE",
+    help="A recording, with force, that the specimen has been through before; may be given several times.",
+)
 @click.option("--seed", type=WHOLE, help="Taken as by the other commands: nothing is random here.")
 @click.option("--quiet", is_flag=True, help="Taken as by the other commands: only warnings are shown here.")
 @common_options
@@ -19,6 +26,7 @@ def simulate(
     model: str,
     recording: str,
     out: Path,
+    earlier: tuple[str, ...],
     seed: int | None,
     quiet: bool,
     mapping: tuple[str, ...],
@@ -41,6 +49,8 @@ def simulate(
     from .settings import name_beside, write_settings
 
     motion = load_motion(recording, mapping, conditions, name_pattern, reading)
+    if earlier:
+        motion = motion.after(load_all(earlier, mapping, conditions, name_pattern, reading))
     force = run(Model.load(model), motion)
 
     rows = (f"{t!r},{f!r}\n" for t, f in zip(motion.time.tolist(), force.tolist(), strict=True))

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mre::recording::{Condition, Recording as Core, Series};
+use mre::recording::{Condition, Past, Recording as Core, Series};
 use mre::transient;
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -43,6 +43,9 @@ use crate::scalars::{Number, Text};
 pub(crate) struct Recording {
     pub(crate) inner: Arc<Core>,
 }
+
+/// What a specimen has been through: displacement, path, strokes, energy, dissipated, heat.
+type Through = (f64, f64, f64, f64, f64, f64);
 
 fn wrap(core: mre::error::Result<Core>) -> PyResult<Recording> {
     Ok(Recording { inner: Arc::new(core.map_err(to_python)?) })
@@ -189,6 +192,18 @@ impl Recording {
         wrap(transient::exclude(&self.inner, &names))
     }
 
+    /// The same recording of a specimen that has been through others, the first of them first; none for a first one. Wear
+    /// and softening that do not come back then go on from them. Each has to have a force.
+    #[allow(clippy::needless_pass_by_value)] // taken over from Python
+    fn after(&self, earlier: Vec<Self>) -> PyResult<Self> {
+        wrap(self.inner.after(earlier.iter().map(|recording| recording.inner.as_ref())))
+    }
+
+    #[getter]
+    fn past(&self) -> Option<Through> {
+        self.inner.past().map(|p| (p.displacement, p.path, p.strokes, p.energy, p.dissipated, p.heat))
+    }
+
     fn __repr__(&self) -> String {
         let time = self.inner.time();
         format!(
@@ -201,16 +216,25 @@ impl Recording {
         )
     }
 
-    /// For pickle: the columns, and the window and range that they alone do not tell.
+    /// For pickle: the columns, and the window, range and past that they alone do not tell.
     #[staticmethod]
     fn _restore(
         columns: &Bound<'_, PyTuple>,
         keywords: &Bound<'_, PyDict>,
         window: Option<f64>,
         scored: (usize, usize),
+        past: Option<Through>,
     ) -> PyResult<Self> {
         let plain = columns.py().get_type::<Self>().call(columns, Some(keywords))?.extract::<Self>()?;
-        wrap(plain.inner.restored(window, scored.0..scored.1))
+        let past = past.map(|(displacement, path, strokes, energy, dissipated, heat)| Past {
+            displacement,
+            path,
+            strokes,
+            energy,
+            dissipated,
+            heat,
+        });
+        wrap(plain.inner.with_past(past).restored(window, scored.0..scored.1))
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
@@ -223,7 +247,7 @@ impl Recording {
         keywords.set_item("simulated", this.simulated(py))?;
         keywords.set_item("name", this.name())?;
         let columns = (this.time(py), this.displacement(py), this.force(py));
-        let arguments = (columns, keywords, this.inner.velocity_window(), this.scored());
+        let arguments = (columns, keywords, this.inner.velocity_window(), this.scored(), this.past());
         Ok((slf.get_type().getattr("_restore")?, arguments.into_pyobject(py)?))
     }
 }

@@ -150,6 +150,7 @@ impl Campaign {
             force,
             whole,
             before: self.before[r],
+            past: recording.past().unwrap_or_default(),
             sizes: &self.sizes,
         }
     }

@@ -28,6 +28,7 @@ pub(super) fn with_halves(recording: &Recording) -> Option<Recording> {
         name: recording.name().into(),
     })
     .ok()
+    .map(|halves| halves.with_past(recording.past()))
 }
 
 fn mean(values: &[f64], i: usize) -> f64 {

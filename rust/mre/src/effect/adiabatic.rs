@@ -12,6 +12,7 @@ use super::degradation::{Degradation, Form, Progress};
 use super::work::Work;
 use super::{About, Effect, Factors, Scene, Sizes};
 use crate::parameter::Parameter;
+use crate::recording::Past;
 
 /// Softening in proportion to the heat of a recording.
 #[derive(Debug, Clone, Copy)]
@@ -61,6 +62,7 @@ impl Effect for Adiabatic {
     }
 
     fn factors(&self, scene: &Scene, shape: &[f64]) -> Option<Factors> {
-        self.law().factors(scene, shape)
+        // A device cools between its recordings.
+        self.law().factors(&Scene { past: Past::default(), ..*scene }, shape)
     }
 }

@@ -1,4 +1,5 @@
-//! Cyclic degradation: the stiffness falls with the path travelled or the energy put in and does not come back.
+//! Cyclic degradation: the stiffness falls with the path travelled or the energy put in and does not come back; on one
+//! specimen it goes on from one recording to the next.
 //!
 //! | symbol | meaning | unit | range |
 //! |---|---|---|---|
@@ -15,6 +16,7 @@ use super::operators::integral;
 use super::work::Work;
 use super::{About, Effect, Factors, Scene, Sizes, ideal_above, order_within, within};
 use crate::parameter::Parameter;
+use crate::recording::Past;
 
 /// Names and equations by [`Form`], each on the stiffness and on the whole force.
 macro_rules! forms {
@@ -67,9 +69,9 @@ pub(super) struct Degradation {
 }
 
 impl Degradation {
-    /// Progress since the first sample.
+    /// Progress in the life of the specimen.
     fn progress(self, scene: &Scene) -> Vec<f64> {
-        match self.by {
+        let mut progress = match self.by {
             Progress::Path => integral(scene, |i| scene.velocity[i].abs()),
             Progress::Strokes => integral(scene, |i| (scene.displacement[i] * scene.velocity[i]).abs()),
             Progress::Energy(work) => {
@@ -77,6 +79,22 @@ impl Degradation {
                 let energy = integral(scene, |i| power[i]);
                 scene.trace(0.0, |most, i| energy[i].max(most))
             }
+        };
+        let before = self.before(scene.past);
+        for p in &mut progress {
+            *p += before;
+        }
+        progress
+    }
+
+    /// Progress before a recording.
+    fn before(self, past: Past) -> f64 {
+        match self.by {
+            Progress::Path => past.path,
+            Progress::Strokes => past.strokes,
+            Progress::Energy(Work::Passed) => past.energy,
+            Progress::Energy(Work::Net) => past.dissipated,
+            Progress::Energy(Work::Viscous) => past.heat,
         }
     }
 

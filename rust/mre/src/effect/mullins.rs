@@ -1,4 +1,5 @@
-//! Mullins softening: the stiffness falls with the largest strain that was ever reached and does not come back.
+//! Mullins softening: the stiffness falls with the largest strain that was ever reached and does not come back; on one
+//! specimen it is also that of earlier recordings.
 //!
 //! | symbol | meaning | unit | range |
 //! |---|---|---|---|
@@ -44,7 +45,7 @@ pub(super) struct Mullins {
 /// Largest absolute displacement so far.
 pub(super) fn largest_past(scene: &Scene) -> Vec<f64> {
     let x = scene.displacement;
-    scene.trace(x[0].abs(), |largest, i| largest.max(x[i].abs()))
+    scene.trace(scene.past.displacement.max(x[0].abs()), |largest, i| largest.max(x[i].abs()))
 }
 
 impl Effect for Mullins {

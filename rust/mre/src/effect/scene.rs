@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use crate::recording::{Condition, Recording};
+use crate::recording::{Condition, Past, Recording};
 use crate::velocity;
 
 /// One recording as effects see it. All series have one value a sample.
@@ -24,6 +24,8 @@ pub struct Scene<'a> {
     pub whole: &'a [f64],
     /// Time of all recordings before this one in the campaign, s.
     pub before: f64,
+    /// What the specimen has been through before.
+    pub past: Past,
     /// Sizes over the campaign.
     pub sizes: &'a Sizes,
 }
@@ -106,7 +108,7 @@ pub struct Sizes {
     pub duration: f64,
     /// Duration of all recordings together, s.
     pub total: f64,
-    /// Longest travelled path in a recording, mm.
+    /// Longest travelled path in a recording, and before on the same specimen, mm.
     pub path: f64,
     /// Most energy that passed through the device in a recording: the largest integral of `|F v|`, N mm.
     pub energy: f64,
@@ -153,9 +155,10 @@ impl Sizes {
             let path: f64 = x.windows(2).map(|p| (p[1] - p[0]).abs()).sum();
             let work =
                 || x.windows(2).zip(force.windows(2)).map(|(x, f)| 0.5 * (f[0] + f[1]) * (x[1] - x[0]));
-            sizes.path = sizes.path.max(path);
-            sizes.energy = sizes.energy.max(work().map(f64::abs).sum());
-            sizes.dissipated = sizes.dissipated.max(work().sum());
+            let past = r.past().unwrap_or_default();
+            sizes.path = sizes.path.max(past.path + path);
+            sizes.energy = sizes.energy.max(past.energy + work().map(f64::abs).sum::<f64>());
+            sizes.dissipated = sizes.dissipated.max(past.dissipated + work().sum::<f64>());
             let (low, high) = match r.current() {
                 Condition::Missing => continue,
                 Condition::Constant(i) => (*i, *i),

@@ -9,7 +9,8 @@
 //! It lasts to the end of the recording in which it falls, where the next one is another specimen or a repaired
 //! one, or through all later recordings in the order in which they are given.
 //! The time that the change takes lets a fit find the moment.
-//! Known limit: near the end of a recording only a large jump can be seen.
+//! Known limit: near the end of a recording only a large jump can be seen; wear that goes on from one recording to the
+//! next looks like it.
 
 use super::{About, Effect, Factors, Scene, Sizes, ideal_below, order_within, within};
 use crate::parameter::Parameter;
@@ -44,7 +45,8 @@ impl Effect for StiffnessJump {
             plain: "the stiffness changes suddenly at one moment (crack, debonding)",
             equation: "k -> k (1 - s) from t_0 on",
             reference: "general",
-            limit: "near the end of a recording only a large jump can be seen",
+            limit: "near the end of a recording only a large jump can be seen; wear that goes on from one recording \
+                    to the next looks like it",
         }
     }
 

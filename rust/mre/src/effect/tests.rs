@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 use std::sync::OnceLock;
 
 use super::{Acceleration, Effect, Scene, Sizes, named};
-use crate::recording::{Condition, Recording, Series};
+use crate::recording::{Condition, Past, Recording, Series};
 
 /// A recording with everything that a scene needs.
 struct Stage {
@@ -57,6 +57,7 @@ impl Stage {
             force: &self.force,
             whole: &self.force,
             before: 0.0,
+            past: Past::default(),
             sizes: &self.sizes,
         }
     }

@@ -43,6 +43,7 @@ impl Recording {
             name: self.series.name.clone(),
         })?;
         cut.velocity_window = self.velocity_window;
+        cut.past = self.past;
         let scored = self.scored.start.max(range.start)..self.scored.end.min(range.end);
         cut.with_scored(scored.start.saturating_sub(range.start)..scored.end.saturating_sub(range.start))
     }

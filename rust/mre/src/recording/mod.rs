@@ -6,11 +6,13 @@ pub(crate) mod check;
 mod condition;
 mod cut;
 mod grid;
+mod past;
 
 use std::ops::Range;
 
 pub use condition::Condition;
 pub(crate) use grid::even_step;
+pub use past::Past;
 
 use crate::error::{Error, Result};
 use crate::kernel::state_change::StateChange;
@@ -56,6 +58,7 @@ pub struct Recording {
     velocity_window: Option<f64>,
     scored: Range<usize>,
     state_change: Option<StateChange>,
+    past: Option<Past>,
 }
 
 impl Recording {
@@ -79,7 +82,7 @@ impl Recording {
             (derived.velocity, Some(window))
         };
         let scored = 0..velocity.len();
-        Ok(Self { series, velocity, velocity_window, scored, state_change: None })
+        Ok(Self { series, velocity, velocity_window, scored, state_change: None, past: None })
     }
 
     /// Number of samples.

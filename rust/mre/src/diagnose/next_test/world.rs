@@ -41,6 +41,10 @@ impl World {
         })
         .ok()?;
         let mut recordings = known.recordings().to_vec();
+        // On the specimen of all others, where they are of one.
+        let one_specimen = recordings.iter().all(|recording| recording.past().is_some());
+        let probe =
+            if one_specimen { probe.after(recordings.iter().map(AsRef::as_ref)).ok()? } else { probe };
         recordings.push(Arc::new(probe));
         if matches!(base, Base::Given(_)) {
             return None;
