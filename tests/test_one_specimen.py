@@ -6,7 +6,18 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from mre_core import Effect, Level, Model, MreError, Recording, diagnose, one_specimen, simulate
+from mre_core import (
+    Dependence,
+    Effect,
+    Law,
+    Level,
+    Model,
+    MreError,
+    Recording,
+    diagnose,
+    one_specimen,
+    simulate,
+)
 from rig import Cli, rows_of, write_csv
 
 NOISE = 0.5
@@ -64,7 +75,9 @@ def test_what_goes_on_is_named(lost: Lost, effect: str, law: str, wanted: dict[s
     assert named == pytest.approx(wanted, rel=0.05)
     for recording, history in zip(one_specimen(recordings), found.histories, strict=True):
         np.testing.assert_allclose(simulate(found.model, recording), history.final, rtol=1e-9, atol=1e-9)
+    assert str(found).endswith("follow each other on one specimen.")
     virgin = diagnose(recordings, "kelvin_voigt", seed=1)
+    assert "specimen" not in str(virgin)
     assert virgin.verdict == "partly_explained", virgin
 
 
@@ -80,6 +93,7 @@ def test_nothing_goes_on_where_nothing_is_missing() -> None:
         ("cyclic_degradation", "path, whole force", {"s": 0.3}),
         ("cyclic_degradation", "strokes, hyperbolic, stiffness", {"s": 0.5, "E_c": 300.0}),
         ("cyclic_degradation", "energy, saturating, stiffness", {"s": 0.4, "E_c": 4000.0}),
+        ("cyclic_degradation", "dissipated energy, saturating, stiffness", {"s": 0.4, "E_c": 800.0}),
         ("cyclic_degradation", "viscous heat, stiffness", {"s": 0.4}),
         ("mullins_softening", "Ogden-Roxburgh, stiffness", {"s": 0.4, "x_m": 2.0, "b": 0.1}),
     ],
@@ -98,6 +112,8 @@ def test_a_recording_in_two_parts_is_the_whole(id: str, law: str, parameters: di
     np.testing.assert_allclose(simulate(wearing, first), wanted[:1351], rtol=1e-9)
     np.testing.assert_allclose(simulate(wearing, last.after([first])), wanted[1350:], rtol=1e-9)
     assert not np.allclose(simulate(wearing, last), wanted[1350:], rtol=1e-3)
+    (told,) = one_specimen([whole])
+    np.testing.assert_allclose(simulate(wearing, told.cut(start=t[1350])), wanted[1350:], rtol=1e-9)
 
 
 def test_the_past_of_a_sine_is_its_closed_form() -> None:
@@ -107,14 +123,75 @@ def test_the_past_of_a_sine_is_its_closed_form() -> None:
     sine = Recording(t, x, 8 * x + 0.4 * v, velocity=v)
     first, second, third = one_specimen([sine, sine, sine])
     assert sine.past is None
-    assert first.past == (0.0,) * 6
+    assert first.past is not None and not any(first.past.values())
     stored, heat = 4 * 4 * 0.5 * 25, 4 * 0.5 * (10 * np.pi) ** 2
     path, dissipated = 4 * 4 * 5, 0.4 * heat
-    assert second.past == pytest.approx((5, path, stored, second.past[3], dissipated, heat), rel=3e-5)
-    assert second.past[3] > dissipated
-    assert third.past == pytest.approx((5, *(2 * value for value in second.past[1:])), rel=1e-9)
+    assert second.past is not None and third.past is not None
+    wanted = {"displacement": 5, "path": path, "strokes": stored, "stayed": dissipated, "heat": heat}
+    assert {name: second.past[name] for name in wanted} == pytest.approx(wanted, rel=3e-5)
+    assert second.past["energy"] > second.past["dissipated"] >= second.past["stayed"]
+    twice = {name: 2 * value for name, value in second.past.items()}
+    most = {"displacement": 5, "dissipated": second.past["stayed"] + second.past["dissipated"]}
+    assert third.past == pytest.approx(twice | most, rel=1e-9)
     assert pickle.loads(pickle.dumps(third)).past == third.past
-    assert third.cut(1, 3).past == third.past
+    assert third.cut(stop=3).past == third.past
+    cut = third.cut(start=2).past
+    assert cut is not None and cut["path"] == pytest.approx(2.5 * path, rel=3e-5)
+    assert sine.after([second]).past == third.past
+    assert [r.past for r in one_specimen([second, sine])] == [second.past, third.past]
+
+
+def test_a_specimen_at_rest_goes_nowhere() -> None:
+    t, x, v = swelling(3, 1)
+    noise = np.random.default_rng(3).normal(size=(2, 12 * t.size))
+    rest = np.zeros(11 * t.size)
+    x, v = np.concatenate([x, rest]), np.concatenate([v, rest])
+    t = np.arange(x.size) / 200
+    clean, noisy = (
+        Recording(t, x, x, velocity=v + size * noise[1]).after(
+            [Recording(t, x, x, velocity=v + size * noise[1])]
+        )
+        for size in (0.0, 0.5)
+    )
+    assert clean.past is not None and noisy.past is not None
+    assert noisy.past["path"] == pytest.approx(clean.past["path"], rel=0.15)
+
+
+def test_heat_does_not_go_on() -> None:
+    """A specimen cools between its recordings: what heat may take is the same in each."""
+    rng = np.random.default_rng(2)
+    recordings = []
+    for amplitude, frequency in (*TESTS, *TESTS):
+        t, x, v = swelling(amplitude, frequency)
+        heat = np.cumsum(v**2) / 200
+        force = 10 * x * (1 - 0.35 * heat / 9000) + 0.3 * v + NOISE * rng.normal(size=x.size)
+        recordings.append(Recording(t, x, force, velocity=v))
+    for told in (recordings, one_specimen(recordings)):
+        found = diagnose(told, "kelvin_voigt", seed=1)
+        assert found.effects[0].id in {"thermal_softening", "cyclic_degradation"}, found
+        assert found.effects[0].law.startswith("viscous heat"), found
+        assert found.fit.held_out_rms_after == pytest.approx(NOISE, rel=0.03)
+    assert found.effects[0].id == "thermal_softening"
+
+
+def test_a_model_over_the_temperature_knows_the_past() -> None:
+    t, x, v = swelling(6, 0.5)
+    sizes = dict.fromkeys(
+        ["displacement", "velocity", "force", "step", "duration", "total", "path", "energy"], 10.0
+    )
+    law = {
+        name: Dependence(Law.of("constant", [1.0, 2.0]), (value,))
+        for name, value in {"k0": 10.0, "c0": 0.3, "F0": 0.0}.items()
+    }
+    wear = Effect("cyclic_degradation", "path, saturating, stiffness", {"s": 0.4, "P_c": 100.0})
+    first = Recording(t, x, 10 * x, velocity=v, temperature=20 + t, current=1 + t / 10)
+    last, forces = first.after([first]), []
+    for over in ("current", "temperature"):
+        model = Model(
+            "kelvin_voigt", (Level(None, {"k0": 10.0, "c0": 0.3, "F0": 0.0}),), {}, (wear,), sizes, law, over
+        )
+        forces.append(simulate(model, last))
+    np.testing.assert_allclose(forces[0], forces[1], rtol=1e-9)
 
 
 def test_a_past_needs_a_force() -> None:

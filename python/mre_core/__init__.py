@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from .measure import Fit
     from .model import Level, Model, simulate
     from .results import Parameter, StopReason, SwarmResult
+    from .specimen import one_specimen
     from .swarms import afsa, mafsa, pso
     from .uncertainty import Bootstrap, Estimate, Profile, Uncertainty, bootstrap, profile, uncertainty
 

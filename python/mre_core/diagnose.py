@@ -76,7 +76,7 @@ def diagnose(
     Parameters
     ----------
     recordings : Recording or sequence of them
-        With force, evenly sampled.
+        With force, evenly sampled. Each of a rested and virgin specimen, or with `one_specimen` all of one.
     base : str, path or Model
         ``"kelvin_voigt"``, ``"sinh"``, ``"bouc_wen"``; a model or its file, whose structure is the base; or
         ``"simulated"``, where the recordings carry the force of a user's own simulation.
@@ -196,6 +196,7 @@ def diagnose(
         left_out={n: count for n, count in zip(names, raw["left_out"], strict=True) if count},
         refitted=None if raw["refitted"] is None else Refitted(**raw["refitted"]),
         interrupted=raw["interrupted"],
+        one_specimen=all(r.past is not None for r in everything),
     )
 
 

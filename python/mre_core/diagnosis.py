@@ -141,6 +141,8 @@ class Diagnosis:
     less."""
     interrupted: bool = False
     """True where Ctrl-C ended it early: what was not reached is empty, or nan."""
+    one_specimen: bool = False
+    """True where the recordings follow each other on one specimen."""
 
     @property
     def absorbed(self) -> tuple[str, ...]:
@@ -162,6 +164,8 @@ class Diagnosis:
             told.append(words.noise(self.p_values.get("even")))
         if self.refitted is not None:
             told.append(words.refitted(self.refitted.rms_as_given, self.refitted.rms_fitted))
+        if self.one_specimen:
+            told.append(words.ONE_SPECIMEN)
         return " ".join(filter(None, told))
 
     def to_dict(self) -> dict[str, Any]:
@@ -196,4 +200,5 @@ class Diagnosis:
             "seed": self.seed,
             "refitted": None if self.refitted is None else asdict(self.refitted),
             "interrupted": self.interrupted,
+            "one_specimen": self.one_specimen,
         }

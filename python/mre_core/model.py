@@ -124,8 +124,7 @@ class Model:
         if self.over == "current" or len(levels) == 1:
             return levels, recording
         # The core interpolates between levels of the current: what changes takes its place.
-        moved = (recording.time, recording.displacement, None)
-        return levels, Recording(*moved, velocity=recording.velocity, current=series, name=recording.name)
+        return levels, recording.at_current(series)
 
     def to_dict(self) -> dict[str, Any]:
         """Content of a model file."""
@@ -255,7 +254,8 @@ def simulate(model: Model | str | os.PathLike[str], recording: Recording) -> NDA
     model : Model or path
         The model, or its file.
     recording : Recording
-        n samples of displacement and velocity, and the current where the model has several levels.
+        n samples of displacement and velocity, and the current where the model has several levels. Of a
+        rested and virgin specimen, or of one that has been through others: `recording.after(others)`.
 
     Returns
     -------

@@ -16,19 +16,23 @@ def one_specimen(recordings: Iterable[Recording]) -> list[Recording]:
     Parameters
     ----------
     recordings : iterable of Recording
-        With force, in the order in which they were recorded.
+        In the order in which they were recorded, all but the last with force. The past of the first is kept.
 
     Returns
     -------
     list of Recording
-        The same, each with its `past`: the largest displacement so far (mm), the path (mm), the strokes
-        (integral of ``|x v|``, mm^2), the energy that passed through the specimen and that stayed in it
-        (N mm), and the integral of ``v^2`` (mm^2/s).
+        The same, each with its `past`: the largest `displacement` so far (mm), the `path` (mm), the
+        `strokes` (integral of ``|x v|``, mm^2), the `energy` that passed through the specimen, that `stayed`
+        in it, and the most of that so far (`dissipated`; all N mm, with the measured force), and the `heat`
+        of a dashpot (integral of ``v^2``, mm^2/s).
 
     Raises
     ------
     MreError
-        One of them has no force (a ValueError).
+        One of them but the last has no force (a ValueError).
     """
-    found = list(each_of(recordings))
-    return [recording.after(found[:place]) for place, recording in enumerate(found)]
+    found: list[Recording] = []
+    for recording in each_of(recordings):
+        first = not found and recording.past is not None
+        found.append(recording if first else recording.after(found[-1:]))
+    return found

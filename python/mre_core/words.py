@@ -198,6 +198,9 @@ def unknown(found: Mapping[str, Any], nearest: Sequence[str]) -> str:
     )
 
 
+ONE_SPECIMEN = "The recordings are taken to follow each other on one specimen."
+
+
 def noise(p_even: float | None) -> str:
     """Say that the noise follows the motion, where it plainly does."""
     if p_even is None or p_even > PLAINLY_UNEVEN:

@@ -22,6 +22,7 @@ _SHOWN = {
         "false_alarm",
         "seed",
         "interrupted",
+        "one_specimen",
         "blank",
     ),
 }

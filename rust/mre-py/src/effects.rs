@@ -106,6 +106,7 @@ pub(crate) fn sizes(given: &Bound<'_, PyMapping>) -> PyResult<Sizes> {
         energy: number("energy")?,
         // Models of before there were laws that need it have none.
         dissipated: item("dissipated").map_or_else(|| number("energy"), |_| number("dissipated"))?,
+        life: item("life").map_or(Ok(1.0), |_| number("life"))?,
         current: item("current").map(|value| ends(&value)).transpose()?,
         current_varies: match item("current_varies") {
             Some(value) => value.extract().map_err(|_| unusable("current_varies", "true or false"))?,
@@ -139,6 +140,7 @@ pub(crate) fn any_sizes() -> Sizes {
         path: 1.0,
         energy: 1.0,
         dissipated: 1.0,
+        life: 1.0,
         current: Some((0.0, 1.0)),
         current_varies: true,
         quantum: None,

@@ -1,5 +1,6 @@
 //! `Recording`: a validated recording.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use mre::recording::{Condition, Past, Recording as Core, Series};
@@ -44,8 +45,20 @@ pub(crate) struct Recording {
     pub(crate) inner: Arc<Core>,
 }
 
-/// What a specimen has been through: displacement, path, strokes, energy, dissipated, heat.
-type Through = (f64, f64, f64, f64, f64, f64);
+/// What a specimen has been through, by name.
+type Through = BTreeMap<String, f64>;
+
+fn through(past: Past) -> [(&'static str, f64); 7] {
+    [
+        ("displacement", past.displacement),
+        ("path", past.path),
+        ("strokes", past.strokes),
+        ("energy", past.energy),
+        ("stayed", past.stayed),
+        ("dissipated", past.dissipated),
+        ("heat", past.heat),
+    ]
+}
 
 fn wrap(core: mre::error::Result<Core>) -> PyResult<Recording> {
     Ok(Recording { inner: Arc::new(core.map_err(to_python)?) })
@@ -176,7 +189,8 @@ impl Recording {
         self.inner.len()
     }
 
-    /// Keep the part from `start` to `stop` (s). What is cut off is forgotten: a simulation starts rested.
+    /// Keep the part from `start` to `stop` (s). What is cut off is forgotten: a simulation starts rested. Of a specimen with
+    /// a past, it belongs to that.
     #[pyo3(signature = (start=None, stop=None))]
     fn cut(&self, start: Option<Number>, stop: Option<Number>) -> PyResult<Self> {
         let (start, stop) = (start.map_or(f64::NEG_INFINITY, |s| s.0), stop.map_or(f64::INFINITY, |s| s.0));
@@ -199,9 +213,14 @@ impl Recording {
         wrap(self.inner.after(earlier.iter().map(|recording| recording.inner.as_ref())))
     }
 
+    /// The same recording at another current, A, at every sample.
+    fn at_current(&self, current: &Bound<'_, PyAny>) -> PyResult<Self> {
+        wrap(self.inner.at_current(vector("current", current)?))
+    }
+
     #[getter]
     fn past(&self) -> Option<Through> {
-        self.inner.past().map(|p| (p.displacement, p.path, p.strokes, p.energy, p.dissipated, p.heat))
+        self.inner.past().map(|past| through(past).map(|(name, value)| (name.to_owned(), value)).into())
     }
 
     fn __repr__(&self) -> String {
@@ -226,13 +245,17 @@ impl Recording {
         past: Option<Through>,
     ) -> PyResult<Self> {
         let plain = columns.py().get_type::<Self>().call(columns, Some(keywords))?.extract::<Self>()?;
-        let past = past.map(|(displacement, path, strokes, energy, dissipated, heat)| Past {
-            displacement,
-            path,
-            strokes,
-            energy,
-            dissipated,
-            heat,
+        let past = past.map(|past| {
+            let of = |name: &str| past.get(name).copied().unwrap_or_default();
+            Past {
+                displacement: of("displacement"),
+                path: of("path"),
+                strokes: of("strokes"),
+                energy: of("energy"),
+                stayed: of("stayed"),
+                dissipated: of("dissipated"),
+                heat: of("heat"),
+            }
         });
         wrap(plain.inner.with_past(past).restored(window, scored.0..scored.1))
     }

@@ -221,7 +221,7 @@ fn sizes(found: &Diagnosis) -> Value {
     json!({
         "displacement": s.displacement, "velocity": s.velocity, "force": s.force, "step": s.step,
         "duration": s.duration, "total": s.total, "path": s.path, "energy": s.energy,
-        "dissipated": s.dissipated,
+        "dissipated": s.dissipated, "life": s.life,
         "current": s.current, "current_varies": s.current_varies,
         "quantum": s.quantum,
     })

@@ -77,6 +77,14 @@ fn ln_gamma(x: f64) -> f64 {
     0.5 * std::f64::consts::TAU.ln() + (x + 0.5) * t.ln() - t + sum.ln()
 }
 
+/// Chance that the ratio of mean squares of so many normal values over so many exceeds `x`, by cube roots, which are
+/// nearly normal (Paulson, Ann. Math. Stat. 13 (1942) 233).
+pub(super) fn f_tail(x: f64, above: usize, below: usize) -> f64 {
+    let (a, b) = (2.0 / (9.0 * above as f64), 2.0 / (9.0 * below as f64));
+    let root = x.cbrt();
+    normal_tail(((1.0 - b) * root - (1.0 - a)) / (b * root * root + a).sqrt())
+}
+
 /// `P(X > x)` of a standard normal variable.
 pub(super) fn normal_tail(x: f64) -> f64 {
     let beyond = 0.5 * chi_square_tail(x * x, 1);
@@ -101,6 +109,9 @@ mod tests {
         }
         assert!((normal_tail(1.959_963_984_540_054) - 0.025).abs() < 1e-12);
         assert!((normal_tail(-1.959_963_984_540_054) - 0.975).abs() < 1e-12);
+        for (x, above, below, p) in [(4.965, 1, 10, 0.05), (5.636, 4, 10, 0.012_3), (3.326, 5, 10, 0.05)] {
+            assert!((f_tail(x, above, below) / p - 1.0).abs() < 0.05, "{x} {above} {below}");
+        }
         assert!((chi_square_tail(200.0, 1) / 2.088_487_583_762_545e-45 - 1.0).abs() < 1e-9);
     }
 }

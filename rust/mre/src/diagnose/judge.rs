@@ -96,8 +96,8 @@ fn alone<'a>(
     let improvement = explained - parameters as f64 * (base.rows as f64).ln();
     // A drift has parameters in every recording, and even smooth forces have a slow part: it has to leave something.
     let drifts = named.assembly.effects().iter().any(|e| e.slow().is_some() && e.of_the_measurement());
-    let whole = drifts && rest.cautious() > BEYOND_CHANCE;
-    let surpassed = effects > 0 && !whole && of_all.improvement > improvement + CLEAR;
+    let leaves_nothing = rest.cautious() > BEYOND_CHANCE;
+    let surpassed = effects > 0 && !(drifts && leaves_nothing) && of_all.improvement > improvement + CLEAR;
     let wandering = last.as_ref().map_or(Mismatch::NONE, Null::wandering);
     let odd = last.as_ref().map_or(Mismatch::NONE, Null::odd_recording);
     let uneven = last.as_ref().and_then(Null::uneven).unwrap_or(Uneven::NONE);

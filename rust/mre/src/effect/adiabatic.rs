@@ -30,6 +30,11 @@ impl Adiabatic {
     }
 }
 
+/// A device cools between its recordings.
+fn of_one_recording(sizes: &Sizes) -> Sizes {
+    Sizes { life: 1.0, ..sizes.clone() }
+}
+
 impl Effect for Adiabatic {
     fn about(&self) -> About {
         About {
@@ -54,15 +59,15 @@ impl Effect for Adiabatic {
     }
 
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
-        self.law().shape(sizes)
+        self.law().shape(&of_one_recording(sizes))
     }
 
     fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
-        self.law().starts(sizes)
+        self.law().starts(&of_one_recording(sizes))
     }
 
     fn factors(&self, scene: &Scene, shape: &[f64]) -> Option<Factors> {
-        // A device cools between its recordings.
-        self.law().factors(&Scene { past: Past::default(), ..*scene }, shape)
+        let sizes = of_one_recording(scene.sizes);
+        self.law().factors(&Scene { past: Past::default(), sizes: &sizes, ..*scene }, shape)
     }
 }

@@ -76,36 +76,38 @@ impl Degradation {
             Progress::Strokes => integral(scene, |i| (scene.displacement[i] * scene.velocity[i]).abs()),
             Progress::Energy(work) => {
                 let power = work.power(scene);
-                let energy = integral(scene, |i| power[i]);
-                scene.trace(0.0, |most, i| energy[i].max(most))
+                integral(scene, |i| power[i])
             }
         };
-        let before = self.before(scene.past);
+        let (before, mut most) = self.before(scene.past);
         for p in &mut progress {
-            *p += before;
+            most = most.max(before + *p);
+            *p = most;
         }
         progress
     }
 
-    /// Progress before a recording.
-    fn before(self, past: Past) -> f64 {
-        match self.by {
+    /// Before a recording, and the most so far.
+    fn before(self, past: Past) -> (f64, f64) {
+        let before = match self.by {
             Progress::Path => past.path,
             Progress::Strokes => past.strokes,
             Progress::Energy(Work::Passed) => past.energy,
-            Progress::Energy(Work::Net) => past.dissipated,
+            Progress::Energy(Work::Net) => return (past.stayed, past.dissipated),
             Progress::Energy(Work::Viscous) => past.heat,
-        }
+        };
+        (before, before)
     }
 
-    /// Largest progress over the campaign.
+    /// Largest progress in the life of a specimen.
     fn most(self, sizes: &Sizes) -> f64 {
-        match self.by {
-            Progress::Path => sizes.path,
-            // Of strokes that are all as large as the largest.
-            Progress::Strokes => 0.5 * sizes.path * sizes.displacement,
-            Progress::Energy(work) => work.most(sizes),
-        }
+        sizes.life
+            * match self.by {
+                Progress::Path => sizes.path,
+                // Of strokes that are all as large as the largest.
+                Progress::Strokes => 0.5 * sizes.path * sizes.displacement,
+                Progress::Energy(work) => work.most(sizes),
+            }
     }
 
     /// Name and equation.

@@ -108,12 +108,14 @@ pub struct Sizes {
     pub duration: f64,
     /// Duration of all recordings together, s.
     pub total: f64,
-    /// Longest travelled path in a recording, and before on the same specimen, mm.
+    /// Longest travelled path in a recording, mm.
     pub path: f64,
     /// Most energy that passed through the device in a recording: the largest integral of `|F v|`, N mm.
     pub energy: f64,
     /// Most energy that stayed in it: the largest integral of `F v`, N mm.
     pub dissipated: f64,
+    /// Times that the path of a specimen in all its recordings is as long.
+    pub life: f64,
     /// Lowest and highest current, A, where it is known.
     pub current: Option<(f64, f64)>,
     /// True where the current changes inside a recording, or between recordings that share the parameters of
@@ -137,10 +139,12 @@ impl Sizes {
             path: 0.0,
             energy: 0.0,
             dissipated: 0.0,
+            life: 1.0,
             current: None,
             current_varies: false,
             quantum: super::quantisation::quantum(&forces),
         };
+        let mut longest = 0.0_f64;
         let farthest = |values: &[f64]| values.iter().fold(0.0_f64, |far, v| far.max(v.abs()));
         for r in recordings {
             let (time, x, v) = (r.time(), r.displacement(), r.velocity());
@@ -155,10 +159,10 @@ impl Sizes {
             let path: f64 = x.windows(2).map(|p| (p[1] - p[0]).abs()).sum();
             let work =
                 || x.windows(2).zip(force.windows(2)).map(|(x, f)| 0.5 * (f[0] + f[1]) * (x[1] - x[0]));
-            let past = r.past().unwrap_or_default();
-            sizes.path = sizes.path.max(past.path + path);
-            sizes.energy = sizes.energy.max(past.energy + work().map(f64::abs).sum::<f64>());
-            sizes.dissipated = sizes.dissipated.max(past.dissipated + work().sum::<f64>());
+            longest = longest.max(r.past().unwrap_or_default().path + path);
+            sizes.path = sizes.path.max(path);
+            sizes.energy = sizes.energy.max(work().map(f64::abs).sum());
+            sizes.dissipated = sizes.dissipated.max(work().sum());
             let (low, high) = match r.current() {
                 Condition::Missing => continue,
                 Condition::Constant(i) => (*i, *i),
@@ -168,7 +172,8 @@ impl Sizes {
             *known = (known.0.min(low), known.1.max(high));
             sizes.current_varies |= r.current().varies();
         }
-        sizes.above_zero()
+        let sizes = sizes.above_zero();
+        Self { life: (longest / sizes.path).max(1.0), ..sizes }
     }
 
     /// The same where all recordings share the parameters of the base model, whatever their currents.

@@ -5,10 +5,10 @@ use crate::error::{Error, Result};
 
 impl Recording {
     /// The part between two times in s. What is cut off is forgotten: a simulation of the rest
-    /// starts rested.
+    /// starts rested. Of a specimen with a past, it belongs to that.
     ///
     /// # Errors
-    /// Fewer than [`MIN_SAMPLES`] samples or no motion left.
+    /// Fewer than [`MIN_SAMPLES`] samples or no motion left; no force, of a specimen with a past.
     pub fn cut(&self, start: f64, stop: f64) -> Result<Self> {
         let time = self.time();
         if start.is_nan() || stop.is_nan() {
@@ -43,7 +43,7 @@ impl Recording {
             name: self.series.name.clone(),
         })?;
         cut.velocity_window = self.velocity_window;
-        cut.past = self.past;
+        cut.past = self.past_at(range.start)?;
         let scored = self.scored.start.max(range.start)..self.scored.end.min(range.end);
         cut.with_scored(scored.start.saturating_sub(range.start)..scored.end.saturating_sub(range.start))
     }

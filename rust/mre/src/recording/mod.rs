@@ -207,6 +207,18 @@ impl Recording {
         Self { series, velocity: times(&self.velocity), ..self.clone() }
     }
 
+    /// The same recording at another current in A.
+    ///
+    /// # Errors
+    /// Not one value a sample.
+    pub fn at_current(&self, current: Vec<f64>) -> Result<Self> {
+        if current.len() != self.len() {
+            let wanted = format!("{}, one a sample", self.len());
+            return Err(Error::setting("number of currents", current.len(), wanted).in_recording(self.name()));
+        }
+        Ok(self.seen_with(self.displacement().to_vec(), self.velocity.clone(), Some(current)))
+    }
+
     /// The same recording with another motion, and another current where given; all of one length.
     pub(crate) fn seen_with(
         &self,
