@@ -411,3 +411,19 @@ def test_an_earthquake_has_no_transients(seed: int) -> None:
 def test_a_push_without_reversals_has_no_transients() -> None:
     recording = Recording(T, T, T)
     assert recording.exclude("start_transient", "stop_transient").scored == (0, N)
+
+
+def test_another_current_changes_nothing_else() -> None:
+    recording = Recording(T, X, F, name="run").exclude("start_transient")
+    moved = recording.at_current(T + 1.0)
+    np.testing.assert_array_equal(moved.current, T + 1.0)
+    np.testing.assert_array_equal(moved.velocity, recording.velocity)
+    assert (moved.name, moved.scored, moved.velocity_window) == (
+        "run",
+        recording.scored,
+        recording.velocity_window,
+    )
+    with pytest.raises(MreError, match=r"'run': number of currents is 2, wanted .* one a sample"):
+        recording.at_current([1.0, 2.0])
+    with pytest.raises(MreError, match=r"'run': current .* NaN"):
+        recording.at_current(with_one(T, 3, math.nan))

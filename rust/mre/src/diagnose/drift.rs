@@ -26,16 +26,16 @@ const CAUTION: f64 = 1.25;
 /// The residuals without their drift and their means, if there is one; `beside` is what they have [`beside`] a drift,
 /// and `spectra` are those of both.
 pub(super) fn without_drift(residuals: &[Vec<f64>], beside: &[Vec<f64>], spectra: &Beside) -> Vec<Vec<f64>> {
-    let drifts = chance_of(spectra, &DRIFT) <= CHANCE || settles(beside);
+    let drifts = settles(beside) || chance_of(spectra, &DRIFT) <= CHANCE;
     if !drifts && chance_of(spectra, &MEAN) > CHANCE {
         return residuals.to_vec();
     }
-    let calmed = |e: &Vec<f64>| {
-        // Where a zero drifts, the mean is its own as well.
-        let slow = slow_columns(e.len());
-        without(e, &slow[..if drifts { slow.len() } else { 1 }])
+    let less = |columns: &dyn Fn(usize) -> Vec<Vec<f64>>| {
+        beside.iter().map(|e| without(e, &columns(e.len()))).collect::<Vec<Vec<f64>>>()
     };
-    beside.iter().map(calmed).collect()
+    // Where a zero drifts, the mean is its own as well.
+    let calm = if drifts { less(&slow_columns) } else { less(&|n| vec![vec![1.0; n]]) };
+    if settles(&calm) { less(&settling_columns) } else { calm }
 }
 
 /// A residual less what slow columns explain of it.
@@ -49,11 +49,16 @@ pub(super) fn beside(residuals: &[Vec<f64>], calm: &[Option<Vec<f64>>]) -> Vec<V
     residuals.iter().zip(calm).map(|(e, calm)| calm.as_ref().unwrap_or(e).clone()).collect()
 }
 
-/// A mean, a line, the slow half-cosines and what settles over `n` samples.
+/// A mean, a line and the slow half-cosines over `n` samples.
 fn slow_columns(n: usize) -> Vec<Vec<f64>> {
     let waves = DRIFT.map(|k| (0..n).map(|i| wave(n, k, i as f64)).collect());
+    line(n).into_iter().chain(waves).collect()
+}
+
+/// The same and what settles.
+fn settling_columns(n: usize) -> Vec<Vec<f64>> {
     let settling = SETTLING.map(|share| (0..n).map(|i| (-(i as f64) / (share * n as f64)).exp()).collect());
-    line(n).into_iter().chain(waves).chain(settling).collect()
+    slow_columns(n).into_iter().chain(settling).collect()
 }
 
 /// A mean and a slope over `n` samples.

@@ -16,8 +16,8 @@ const SMALLEST_SHARE: f64 = 1e-6;
 /// A function of displacement and velocity over their largest.
 type Term = fn(f64, f64) -> f64;
 
-/// Terms of velocity and of displacement and velocity together, of unit size, and whether they are odd. Even ones have a slow part,
-/// which slow noise has too: a test of them would find that.
+/// Terms of the velocity, alone and with the displacement, of unit size, and whether they are odd. Even ones have a slow
+/// part, which slow noise has too: a test of them would find that.
 const TERMS: [(Term, bool); 8] = [
     (|x, v| x * v, false),
     (|_, v| v * v, false),

@@ -114,7 +114,7 @@ pub struct Sizes {
     pub energy: f64,
     /// Most energy that stayed in it: the largest integral of `F v`, N mm.
     pub dissipated: f64,
-    /// Times that the path of a specimen in all its recordings is as long.
+    /// Longest path of a specimen in all its recordings over that in one: 1 where each recording has its own.
     pub life: f64,
     /// Lowest and highest current, A, where it is known.
     pub current: Option<(f64, f64)>,

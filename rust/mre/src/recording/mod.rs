@@ -210,12 +210,13 @@ impl Recording {
     /// The same recording at another current in A.
     ///
     /// # Errors
-    /// Not one value a sample.
+    /// Not one value a sample, or one that is not finite or beyond [`LARGEST`].
     pub fn at_current(&self, current: Vec<f64>) -> Result<Self> {
         if current.len() != self.len() {
             let wanted = format!("{}, one a sample", self.len());
             return Err(Error::setting("number of currents", current.len(), wanted).in_recording(self.name()));
         }
+        check::usable("current", &current).map_err(|error| error.in_recording(self.name()))?;
         Ok(self.seen_with(self.displacement().to_vec(), self.velocity.clone(), Some(current)))
     }
 
