@@ -423,7 +423,7 @@ def test_another_current_changes_nothing_else() -> None:
         recording.scored,
         recording.velocity_window,
     )
-    with pytest.raises(MreError, match=r"'run': number of currents is 2, wanted .* one a sample"):
+    with pytest.raises(MreError, match=r"'run': number of currents is 2: wanted .* one a sample"):
         recording.at_current([1.0, 2.0])
     with pytest.raises(MreError, match=r"'run': current .* NaN"):
         recording.at_current(with_one(T, 3, math.nan))

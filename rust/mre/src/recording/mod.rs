@@ -213,7 +213,7 @@ impl Recording {
     /// Not one value a sample, or one that is not finite or beyond [`LARGEST`].
     pub fn at_current(&self, current: Vec<f64>) -> Result<Self> {
         if current.len() != self.len() {
-            let wanted = format!("{}, one a sample", self.len());
+            let wanted = format!("wanted {}, one a sample", self.len());
             return Err(Error::setting("number of currents", current.len(), wanted).in_recording(self.name()));
         }
         check::usable("current", &current).map_err(|error| error.in_recording(self.name()))?;
