@@ -41,10 +41,10 @@ impl World {
         })
         .ok()?;
         let mut recordings = known.recordings().to_vec();
-        // On the specimen of all others, where they are of one.
+        // On the specimen of all others, where they are of one: the last knows what was before.
         let one_specimen = recordings.iter().all(|recording| recording.past().is_some());
-        let probe =
-            if one_specimen { probe.after(recordings.iter().map(AsRef::as_ref)).ok()? } else { probe };
+        let last = recordings.last().map(AsRef::as_ref);
+        let probe = if one_specimen { probe.after(last).ok()? } else { probe };
         recordings.push(Arc::new(probe));
         if matches!(base, Base::Given(_)) {
             return None;
