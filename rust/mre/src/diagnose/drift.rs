@@ -8,7 +8,7 @@ use std::ops::RangeInclusive;
 
 use super::distribution::chi_square_tail;
 use super::explained::unexplained;
-use super::extrapolated::Beside;
+use super::extrapolated::{Beside, LEFT};
 use super::settling::settles;
 use super::spectrum::wave;
 use crate::effect::{DRIFT, MEAN};
@@ -34,8 +34,11 @@ pub(super) fn without_drift(residuals: &[Vec<f64>], beside: &[Vec<f64>], spectra
         beside.iter().map(|e| without(e, &columns(e.len()))).collect::<Vec<Vec<f64>>>()
     };
     // Where a zero drifts, the mean is its own as well.
-    let calm = if drifts { less(&slow_columns) } else { less(&|n| vec![vec![1.0; n]]) };
-    if settles(&calm) { less(&settling_columns) } else { calm }
+    if !drifts {
+        return less(&|n| vec![vec![1.0; n]]);
+    }
+    let (calm, settled) = (less(&slow_columns), less(&settling_columns));
+    if settles(&calm) || chance_beside(&calm, &settled, &LEFT) <= CHANCE { settled } else { calm }
 }
 
 /// A residual less what slow columns explain of it.

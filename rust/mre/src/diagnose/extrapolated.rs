@@ -11,9 +11,10 @@ use std::ops::{Range, RangeInclusive};
 use super::above::above;
 use super::hum::without_hum;
 use super::spectrum::{Band, Shape, amplitudes, gaussian, heavy_tailed};
-use crate::effect::DRIFT;
 use crate::kernel::filter::dot;
 
+/// Half-cosines that a drift's leave of what settles.
+pub(super) const LEFT: RangeInclusive<usize> = 4..=7;
 /// Half-cosines beside the slowest.
 const BESIDE: Range<usize> = 5..100;
 /// Corners of spectra there, in half-cosines of the longest residual.
@@ -21,7 +22,7 @@ const CORNERS: [f64; 8] = [0.0, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0];
 
 /// Spectra of residuals, slow and beside.
 pub(super) struct Beside {
-    /// Squares of the mean and the half-cosines of a drift.
+    /// Squares of the mean and the half-cosines of a drift and of what it leaves.
     slow: Vec<Vec<f64>>,
     band: Band,
 }
@@ -42,7 +43,7 @@ impl Beside {
     /// The mean and the slow half-cosines of each residual, then those of what a line leaves of its noise, up to half
     /// its sampling rate: a drift is a line above all, which reaches into the faster ones.
     pub(super) fn of(residuals: &[Vec<f64>], noise: &[Vec<f64>]) -> Self {
-        let places: Vec<usize> = (0..=*DRIFT.end()).collect();
+        let places: Vec<usize> = (0..=*LEFT.end()).collect();
         let square = |e: &Vec<f64>| amplitudes(e, &places).into_iter().map(|a| a * a).collect();
         let level: Vec<Vec<f64>> = noise.iter().map(|e| without_line(e)).collect();
         let places = level.iter().map(|e| (BESIDE.start..BESIDE.end.min(e.len() / 2)).collect()).collect();
