@@ -25,7 +25,7 @@ use super::on_part::OnPart;
 use super::own_share::OwnShare;
 use super::payne::{Amplitude, Payne};
 use super::pinched::Pinched;
-use super::pinching::Pinching;
+use super::pinching::{Middle, Pinching};
 use super::quadratic_damping::QuadraticDamping;
 use super::remanence::Remanence;
 use super::rig::Rig;
@@ -49,7 +49,9 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &Fractional::Springpot,
     &Fractional::Maxwell,
     &Coulomb::Dahl,
+    &Coulomb::Slider,
     &Coulomb::Smoothed,
+    &Coulomb::Rounded,
     &WithCurrent {
         law: &Coulomb::Dahl,
         name: "Dahl, with the current",
@@ -86,6 +88,7 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &OddElastic::Sinh,
     &OddElastic::Limited,
     &OddElastic::Saturating,
+    &OddElastic::Power,
     &Asymmetric::Square,
     &Asymmetric::OneSided,
     &Asymmetric::Fourth,
@@ -192,10 +195,22 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &Degradation { by: Progress::Energy(Work::Net), form: Form::Hyperbolic, whole: false },
     &Degradation { by: Progress::Strokes, form: Form::Saturating, whole: false },
     &Degradation { by: Progress::Strokes, form: Form::Hyperbolic, whole: false },
+    &Degradation { by: Progress::Path, form: Form::Logarithmic, whole: false },
+    &Degradation { by: Progress::Path, form: Form::Logarithmic, whole: true },
+    &Degradation { by: Progress::Path, form: Form::Power, whole: false },
+    &Degradation { by: Progress::Path, form: Form::Power, whole: true },
     &OnPart::springs(&Degradation { by: Progress::Path, form: Form::Steady, whole: false }, "path, spring"),
     &OnPart::springs(
         &Degradation { by: Progress::Path, form: Form::Saturating, whole: false },
         "path, saturating, spring",
+    ),
+    &OnPart::springs(
+        &Degradation { by: Progress::Path, form: Form::Logarithmic, whole: false },
+        "path, logarithmic, spring",
+    ),
+    &OnPart::springs(
+        &Degradation { by: Progress::Path, form: Form::Power, whole: false },
+        "path, power, spring",
     ),
     &OnPart::springs(
         &Degradation { by: Progress::Energy(Work::Passed), form: Form::Steady, whole: false },
@@ -274,19 +289,24 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &StiffnessJump { whole: true, lasting: true },
     &OnPart::springs(&StiffnessJump { whole: false, lasting: false }, "spring"),
     &OnPart::springs(&StiffnessJump { whole: false, lasting: true }, "spring, lasting"),
-    &Pinching { shifted: false, whole: false },
-    &Pinching { shifted: false, whole: true },
-    &Pinching { shifted: true, whole: false },
-    &Pinching { shifted: true, whole: true },
-    &OnPart::springs(&Pinching { shifted: false, whole: false }, "centred, spring"),
-    &OnPart::springs(&Pinching { shifted: true, whole: false }, "shifted, spring"),
+    &Pinching { at: Middle::Centred, whole: false },
+    &Pinching { at: Middle::Centred, whole: true },
+    &Pinching { at: Middle::Shifted, whole: false },
+    &Pinching { at: Middle::Shifted, whole: true },
+    &Pinching { at: Middle::Edged, whole: false },
+    &Pinching { at: Middle::Edged, whole: true },
+    &Pinching { at: Middle::Wide, whole: false },
+    &Pinching { at: Middle::Wide, whole: true },
+    &OnPart::springs(&Pinching { at: Middle::Centred, whole: false }, "centred, spring"),
+    &OnPart::springs(&Pinching { at: Middle::Shifted, whole: false }, "shifted, spring"),
+    &OnPart::springs(&Pinching { at: Middle::Edged, whole: false }, "edged, spring"),
     &OnPart::hysteretic(
-        &Pinching { shifted: false, whole: false },
+        &Pinching { at: Middle::Centred, whole: false },
         "centred, hysteretic force",
         "k_w -> k_w (1 - s exp(-(x/w)^2))",
     ),
     &OnPart::hysteretic(
-        &Pinching { shifted: true, whole: false },
+        &Pinching { at: Middle::Shifted, whole: false },
         "shifted, hysteretic force",
         "k_w -> k_w (1 - s exp(-((x - x_s sgn v)/w)^2))",
     ),
@@ -303,6 +323,9 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &EndStop::Negative,
     &EndStop::Hertz,
     &EndStop::HuntCrossley,
+    &EndStop::Flat,
+    &EndStop::Dashpot,
+    &EndStop::Power,
     &EndStop::Uneven,
     &EndStop::UnevenHertz,
     &Rig::Spring,

@@ -3,16 +3,17 @@
 //! | symbol | meaning | unit | range |
 //! |---|---|---|---|
 //! | `F_c` | friction force | N | >= 0 |
-//! | `z_y` | pre-sliding displacement (Dahl) | mm | 0.01 % to 5 % of the largest stroke |
+//! | `z_y` | pre-sliding displacement (Dahl, slider) | mm | 0.01 % to 5 % of the largest stroke |
 //! | `v_s` | velocity over which the sign is smoothed | mm/s | 0.001 % to 5 % of the largest speed |
+//! | n | how soon it is reached | - | 1 to 4 |
 //!
-//! Dahl's element is integrated exactly in the displacement. At the lower end of `v_s` the smoothed sign is the sign itself,
+//! Dahl's element and the slider are integrated exactly in the displacement. At the lower end of `v_s` the smoothed sign is the sign itself,
 //! as it is of a velocity that only its rounding keeps from zero.
-//! Reference: Dahl, Aerospace Corporation TOR-0158(3107-18)-1, 1968.
+//! Reference: Dahl, Aerospace Corporation TOR-0158(3107-18)-1, 1968; Jenkins 1962, for the slider.
 //! Known limit: where all strokes are long against `z_y`, its value is not determined.
 
-use super::operators::{dahl, each, sign};
-use super::{About, Effect, Scene, Sizes, ideal_below, order_within, positive};
+use super::operators::{dahl, each, sign, slider};
+use super::{About, Effect, Scene, Sizes, ideal_below, order_within, positive, within};
 use crate::parameter::Parameter;
 
 /// A share by which numbers differ that went through a logarithm.
@@ -23,13 +24,22 @@ fn sharp(sizes: &Sizes) -> f64 {
     1e-5 * sizes.velocity
 }
 
+/// The velocity over which the sign is smoothed.
+fn over(sizes: &Sizes) -> Parameter {
+    ideal_below(order_within("v_s", "mm/s", sharp(sizes), 0.05 * sizes.velocity))
+}
+
 /// How the sign of the velocity is smoothed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Coulomb {
     /// Over a displacement.
     Dahl,
+    /// Not at all before it slips: elastic up to there.
+    Slider,
     /// Over a velocity.
     Smoothed,
+    /// Over a velocity, as soon as may be.
+    Rounded,
 }
 
 impl Effect for Coulomb {
@@ -44,6 +54,15 @@ impl Effect for Coulomb {
         };
         match self {
             Self::Dahl => dahl,
+            Self::Slider => About {
+                law: "elastic slider",
+                equation: "F_f = F_c z, dz/dt = v/z_y, |z| <= 1",
+                reference: "Coulomb 1785; Jenkins 1962",
+                ..dahl
+            },
+            Self::Rounded => {
+                About { law: "rounded sign", equation: "F_f = F_c v/(|v|^n + v_s^n)^(1/n)", ..dahl }
+            }
             Self::Smoothed => About { law: "smoothed sign", equation: "F_f = F_c tanh(v/v_s)", ..dahl },
         }
     }
@@ -54,7 +73,7 @@ impl Effect for Coulomb {
 
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
         match self {
-            Self::Dahl => {
+            Self::Dahl | Self::Slider => {
                 vec![ideal_below(order_within(
                     "z_y",
                     "mm",
@@ -62,16 +81,19 @@ impl Effect for Coulomb {
                     0.05 * sizes.displacement,
                 ))]
             }
-            Self::Smoothed => {
-                vec![ideal_below(order_within("v_s", "mm/s", sharp(sizes), 0.05 * sizes.velocity))]
-            }
+            Self::Smoothed => vec![over(sizes)],
+            Self::Rounded => vec![over(sizes), within("n", "", 1.0, 4.0)],
         }
     }
 
     fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
+        if *self == Self::Rounded {
+            let at = |n| [0.003, 0.01, 0.035].map(|share| vec![share * sizes.velocity, n]);
+            return [1.2, 2.0].into_iter().flat_map(at).collect();
+        }
         let (shares, size): (&[f64], f64) = match self {
-            Self::Dahl => (&[0.001, 0.004, 0.012, 0.035], sizes.displacement),
-            Self::Smoothed => (&[1e-4, 0.003, 0.01, 0.035], sizes.velocity),
+            Self::Dahl | Self::Slider => (&[0.001, 0.004, 0.012, 0.035], sizes.displacement),
+            _ => (&[1e-4, 0.003, 0.01, 0.035], sizes.velocity),
         };
         shares.iter().map(|share| vec![share * size]).collect()
     }
@@ -79,8 +101,15 @@ impl Effect for Coulomb {
     fn columns(&self, scene: &Scene, shape: &[f64]) -> Vec<Vec<f64>> {
         vec![match self {
             Self::Dahl => dahl(scene, shape[0]),
-            Self::Smoothed if shape[0] <= (1.0 + ROUNDING) * sharp(scene.sizes) => each(scene.velocity, sign),
+            Self::Slider => slider(scene, shape[0]),
+            Self::Smoothed | Self::Rounded if shape[0] <= (1.0 + ROUNDING) * sharp(scene.sizes) => {
+                each(scene.velocity, sign)
+            }
             Self::Smoothed => each(scene.velocity, |v| (v / shape[0]).tanh()),
+            Self::Rounded => each(scene.velocity, |v| {
+                let u = (v.abs() / shape[0]).powf(shape[1]);
+                (u / (1.0 + u)).powf(1.0 / shape[1]).copysign(v)
+            }),
         }]
     }
 }

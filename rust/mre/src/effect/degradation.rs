@@ -3,8 +3,9 @@
 //!
 //! | symbol | meaning | unit | range |
 //! |---|---|---|---|
-//! | s | share that is lost at the longest path or the most energy (linear), or in the end (saturating, hyperbolic) | - | 0 to 0.95 |
-//! | `P_c` | path at which 63 % of it is lost (hyperbolic: half) | mm | 1 % to 200 % of the longest path |
+//! | s | share that is lost at the longest path or the most energy (linear, logarithmic, power), or in the end (saturating, hyperbolic) | - | 0 to 0.95 |
+//! | `P_c` | path at which 63 % of it is lost (hyperbolic: half; logarithmic: from which it slows down) | mm | 1 % (0.1 %) to 200 % of the longest path |
+//! | q | power | - | 0.2 to 3 |
 //! | `E_c` | energy at which 63 % of it is lost (hyperbolic: half) | N mm (heat: mm^2/s, strokes: mm^2) | 1 % to 200 % of the most energy |
 //!
 //! The energy is the integral of `|F v|` with the force of the base model alone, or what stays of it in the device,
@@ -24,6 +25,8 @@ macro_rules! forms {
         [
             forms!(@ $name, concat!("1 - s ", $p, "/", $p, "_max"), $p, $of),
             forms!(@ concat!($name, ", saturating"), concat!("1 - s (1 - exp(-", $p, "/", $p, "_c))"), $p, $of),
+            forms!(@ concat!($name, ", logarithmic"), concat!("1 - s ln(1 + ", $p, "/", $p, "_c)/ln(1 + ", $p, "_max/", $p, "_c)"), $p, $of),
+            forms!(@ concat!($name, ", power"), concat!("1 - s (", $p, "/", $p, "_max)^q"), $p, $of),
             forms!(@ concat!($name, ", hyperbolic"), concat!("1 - s ", $p, "/(", $p, "_c + ", $p, ")"), $p, $of),
         ]
     };
@@ -53,6 +56,10 @@ pub(super) enum Form {
     Steady,
     /// Exponentially to an end.
     Saturating,
+    /// Ever more slowly, without an end.
+    Logarithmic,
+    /// By a power.
+    Power,
     /// As a stiffness over `1 + E/E_c` falls.
     Hyperbolic,
 }
@@ -89,14 +96,14 @@ impl Degradation {
 
     /// Before a recording, and the most so far.
     fn before(self, past: Past) -> (f64, f64) {
-        let before = match self.by {
+        let grown = match self.by {
+            Progress::Energy(Work::Net) => return (past.stayed, past.dissipated),
+            Progress::Energy(Work::Passed) => past.energy,
+            Progress::Energy(Work::Viscous) => past.heat,
             Progress::Path => past.path,
             Progress::Strokes => past.strokes,
-            Progress::Energy(Work::Passed) => past.energy,
-            Progress::Energy(Work::Net) => return (past.stayed, past.dissipated),
-            Progress::Energy(Work::Viscous) => past.heat,
         };
-        (before, before)
+        (grown, grown)
     }
 
     /// Largest progress in the life of a specimen.
@@ -140,7 +147,9 @@ impl Effect for Degradation {
 
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
         let mut shape = vec![within("s", "", 0.0, 0.95)];
-        if self.form != Form::Steady {
+        if self.form == Form::Power {
+            shape.push(within("q", "", 0.2, 3.0));
+        } else if self.form != Form::Steady {
             let (name, unit) = match self.by {
                 Progress::Path => ("P_c", "mm"),
                 Progress::Energy(Work::Viscous) => ("E_c", "mm^2/s"),
@@ -148,7 +157,8 @@ impl Effect for Degradation {
                 Progress::Energy(_) => ("E_c", "N mm"),
             };
             let most = self.most(sizes);
-            shape.push(ideal_above(order_within(name, unit, 0.01 * most, 2.0 * most)));
+            let least = if self.form == Form::Logarithmic { 0.001 } else { 0.01 };
+            shape.push(ideal_above(order_within(name, unit, least * most, 2.0 * most)));
         }
         shape
     }
@@ -156,7 +166,8 @@ impl Effect for Degradation {
     fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
         match self.form {
             Form::Steady => vec![vec![0.2]],
-            Form::Saturating | Form::Hyperbolic => {
+            Form::Power => vec![vec![0.2, 0.4], vec![0.2, 1.6]],
+            Form::Saturating | Form::Hyperbolic | Form::Logarithmic => {
                 [0.03, 0.12, 0.5].iter().map(|share| vec![0.2, share * self.most(sizes)]).collect()
             }
         }
@@ -169,6 +180,8 @@ impl Effect for Degradation {
             *p = match self.form {
                 Form::Steady => *p / most,
                 Form::Saturating => -(-*p / shape[1]).exp_m1(),
+                Form::Logarithmic => (*p / shape[1]).ln_1p() / (most / shape[1]).ln_1p(),
+                Form::Power => (*p / most).powf(shape[1]),
                 Form::Hyperbolic => *p / (shape[1] + *p),
             };
         }

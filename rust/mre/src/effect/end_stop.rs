@@ -2,15 +2,18 @@
 //!
 //! | symbol | meaning | unit | range |
 //! |---|---|---|---|
-//! | `k_c` | stiffness of the stop | N/mm, or N/mm^1.5 for Hertz contact | >= 0 |
-//! | `c_c` | damping of the contact, over the power 1.5 of its depth | N s/mm^2.5 | >= 0 |
+//! | `k_c` | stiffness of the stop | N/mm, N/mm^1.5 for Hertz contact, N/mm^p for a power | >= 0 |
+//! | `c_c` | damping of the contact: of a dashpot, over the depth, or over its power 1.5 | N s/mm, N s/mm^2, N s/mm^2.5 | >= 0 |
 //! | g | gap; where the ends differ, of the positive one | mm | 30 % to 99.5 % of the largest stroke |
 //! | `g_n` | gap of the negative end, where it is another | mm | 30 % to 99.5 % of the largest stroke |
+//! | p | power of the depth | - | 1 to 4 |
 //!
 //! Reference: Hunt and Crossley, J. Appl. Mech. 42 (1975) 440.
 //! Known limit: with few samples past the gap it is a stiffening spring.
 
-use super::operators::each;
+use std::iter;
+
+use super::operators::{each, sign};
 use super::{About, Effect, Scene, Sizes, positive, within};
 use crate::parameter::Parameter;
 
@@ -27,6 +30,12 @@ pub(super) enum EndStop {
     Hertz,
     /// At both ends, round, and the contact dissipates.
     HuntCrossley,
+    /// At both ends, flat, and the contact dissipates the more the deeper it is.
+    Flat,
+    /// At both ends, a spring with a dashpot beside it.
+    Dashpot,
+    /// At both ends, of any power of the depth.
+    Power,
     /// At both ends, one nearer than the other.
     Uneven,
     /// The same, round.
@@ -46,9 +55,14 @@ impl EndStop {
         matches!(self, Self::Uneven | Self::UnevenHertz)
     }
 
+    fn dissipates(self) -> bool {
+        matches!(self, Self::HuntCrossley | Self::Flat | Self::Dashpot)
+    }
+
     /// How deep the contact is at a displacement, mm: negative at the negative end.
     fn depth(self, x: f64, gaps: &[f64]) -> f64 {
-        let (positive, negative) = (gaps[0], gaps[gaps.len() - 1]);
+        let positive = gaps[0];
+        let negative = if self.is_uneven() { gaps[1] } else { positive };
         match self {
             Self::Positive => (x - positive).max(0.0),
             Self::Negative => (x + negative).min(0.0),
@@ -82,6 +96,19 @@ impl Effect for EndStop {
                 equation: "F_s = d^1.5 (k_c sgn x + c_c v), d = max(|x| - g, 0)",
                 ..both
             },
+            Self::Flat => About {
+                law: "both ends with damping",
+                equation: "F_s = d (k_c sgn x + c_c v), d = max(|x| - g, 0)",
+                ..both
+            },
+            Self::Dashpot => About {
+                law: "spring and dashpot",
+                equation: "F_s = k_c (|x| - g) sgn x + c_c v where |x| > g",
+                ..both
+            },
+            Self::Power => {
+                About { law: "power of the depth", equation: "F_s = k_c max(|x| - g, 0)^p sgn x", ..both }
+            }
             Self::Uneven => About {
                 law: "both ends, uneven gaps",
                 equation: "F_s = k_c (max(x - g, 0) - max(-x - g_n, 0))",
@@ -97,16 +124,27 @@ impl Effect for EndStop {
     }
 
     fn coefficients(&self) -> Vec<Parameter> {
-        let mut found = vec![positive("k_c", if self.is_round() { "N/mm^1.5" } else { "N/mm" })];
-        if *self == Self::HuntCrossley {
-            found.push(positive("c_c", "N s/mm^2.5"));
-        }
-        found
+        let unit = match self {
+            Self::Power => "N/mm^p",
+            _ if self.is_round() => "N/mm^1.5",
+            _ => "N/mm",
+        };
+        let damping = match self {
+            Self::HuntCrossley => Some("N s/mm^2.5"),
+            Self::Flat => Some("N s/mm^2"),
+            Self::Dashpot => Some("N s/mm"),
+            _ => None,
+        };
+        iter::once(positive("k_c", unit)).chain(damping.map(|unit| positive("c_c", unit))).collect()
     }
 
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
         let gap = |name| within(name, "mm", 0.3 * sizes.displacement, 0.995 * sizes.displacement);
-        if self.is_uneven() { vec![gap("g"), gap("g_n")] } else { vec![gap("g")] }
+        match self {
+            Self::Power => vec![gap("g"), within("p", "", 1.0, 4.0)],
+            _ if self.is_uneven() => vec![gap("g"), gap("g_n")],
+            _ => vec![gap("g")],
+        }
     }
 
     fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
@@ -114,22 +152,30 @@ impl Effect for EndStop {
         if self.is_uneven() {
             return GAPS.iter().flat_map(|a| GAPS.map(|b| vec![at(*a), at(b)])).collect();
         }
-        [0.4, 0.55, 0.7, 0.8, 0.88, 0.94, 0.975].iter().map(|share| vec![at(*share)]).collect()
+        let gaps = [0.4, 0.55, 0.7, 0.8, 0.88, 0.94, 0.975].map(at);
+        if *self == Self::Power {
+            return gaps.iter().flat_map(|gap| [1.2, 2.5].map(|p| vec![*gap, p])).collect();
+        }
+        gaps.iter().map(|gap| vec![*gap]).collect()
     }
 
     fn own(&self) -> Option<&'static str> {
-        (*self == Self::HuntCrossley).then_some("k_c")
+        self.dissipates().then_some("k_c")
     }
 
     fn columns(&self, scene: &Scene, shape: &[f64]) -> Vec<Vec<f64>> {
         let spring = each(scene.displacement, |x| {
             let depth = self.depth(x, shape);
-            if self.is_round() { depth.abs().powf(1.5).copysign(depth) } else { depth }
+            match self {
+                Self::Power => depth.abs().powf(shape[1]).copysign(depth),
+                _ if self.is_round() => depth.abs().powf(1.5).copysign(depth),
+                _ => depth,
+            }
         });
-        let mut found = vec![spring];
-        if *self == Self::HuntCrossley {
-            found.push(found[0].iter().zip(scene.velocity).map(|(spring, v)| spring.abs() * v).collect());
-        }
-        found
+        let over = |spring: f64| if *self == Self::Dashpot { sign(spring).abs() } else { spring.abs() };
+        let damping = self
+            .dissipates()
+            .then(|| spring.iter().zip(scene.velocity).map(|(spring, v)| over(*spring) * v).collect());
+        iter::once(spring).chain(damping).collect()
     }
 }

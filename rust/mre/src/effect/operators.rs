@@ -27,11 +27,20 @@ pub(super) fn stop(input: &[f64], r: f64) -> Vec<f64> {
 
 /// Dahl's element, `z' = v (1 - z sgn v) / z_y` from rest: a smooth sign of the velocity.
 pub(super) fn dahl(scene: &Scene, z_y: f64) -> Vec<f64> {
-    let (time, v) = (scene.time, scene.velocity);
-    let moved = |z: f64, dx: f64| {
+    along(scene, |z, dx| {
         let side = sign(dx);
         side + (z - side) * (-dx.abs() / z_y).exp()
-    };
+    })
+}
+
+/// An elastic element of unit force that slips, `z' = v / z_y` within -1 and 1, from rest.
+pub(super) fn slider(scene: &Scene, z_y: f64) -> Vec<f64> {
+    along(scene, |z, dx| (z + dx / z_y).clamp(-1.0, 1.0))
+}
+
+/// A state that follows the displacement alone, from rest; `moved` is what it becomes by a monotonic one.
+fn along(scene: &Scene, moved: impl Fn(f64, f64) -> f64) -> Vec<f64> {
+    let (time, v) = (scene.time, scene.velocity);
     scene.trace(0.0, |z, i| {
         let (h, a, b) = (0.5 * (time[i] - time[i - 1]), v[i - 1], v[i]);
         if a * b < 0.0 {

@@ -170,6 +170,56 @@ fn dahl_slides_as_its_closed_form_and_coulomb_dissipates_four_strokes() {
 }
 
 #[test]
+fn a_slider_is_elastic_until_it_slips() {
+    let stage = Stage::new(grid(1e-3, 1.0), |t| (t, 1.0), None);
+    let z = column("coulomb_friction", "elastic slider", &stage.scene(), &[0.1]);
+    for (i, z) in z.iter().enumerate() {
+        assert!((z - (1e-2 * i as f64).min(1.0)).abs() < 1e-12);
+    }
+    let stage = Stage::sine(2.0, 1.0, 3.0);
+    let z = column("coulomb_friction", "elastic slider", &stage.scene(), &[0.25]);
+    let p = column("hysteresis", "elastic-plastic element", &stage.scene(), &[0.25]);
+    assert!(z.iter().zip(&p).all(|(z, p)| (0.25 * z - p).abs() < 1e-4));
+}
+
+#[test]
+fn a_sign_is_rounded_as_its_closed_forms() {
+    let stage = Stage::sine(2.0, 1.0, 1.0);
+    for n in [1.0, 2.0] {
+        let f = column("coulomb_friction", "rounded sign", &stage.scene(), &[0.1, n]);
+        for (f, v) in f.iter().zip(stage.recording.velocity()) {
+            let wanted = if n < 2.0 { v / (v.abs() + 0.1) } else { v / (v * v + 0.01).sqrt() };
+            assert!((f - wanted).abs() < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn a_contact_follows_a_power_of_its_depth_and_may_have_a_dashpot() {
+    let stage = Stage::sine(3.0, 1.0, 2.0);
+    let (x, v) = (stage.recording.displacement(), stage.recording.velocity());
+    let power = column("end_stop", "power of the depth", &stage.scene(), &[1.5, 2.5]);
+    let flat = law("end_stop", "both ends with damping").columns(&stage.scene(), &[1.5]);
+    let dashpot = law("end_stop", "spring and dashpot").columns(&stage.scene(), &[1.5]);
+    for i in 0..x.len() {
+        let depth = (x[i].abs() - 1.5).max(0.0);
+        close(power[i], depth.powf(2.5) * x[i].signum(), 1e-12);
+        close(flat[0][i], depth * x[i].signum(), 1e-12);
+        close(flat[1][i], depth * v[i], 1e-12);
+        close(dashpot[1][i], if depth > 0.0 { v[i] } else { 0.0 }, 1e-12);
+    }
+}
+
+#[test]
+fn a_power_is_one_at_the_largest_stroke() {
+    let stage = Stage::sine(3.0, 1.0, 2.0);
+    let f = column("cubic_stiffness", "power", &stage.scene(), &[2.5]);
+    for (f, x) in f.iter().zip(stage.recording.displacement()) {
+        close(*f, (x.abs() / 3.0).powf(2.5) * x.signum(), 1e-6);
+    }
+}
+
+#[test]
 fn inertia_is_in_newtons_for_kilograms() {
     let stage = Stage::sine(10.0, 1.0, 3.0);
     let a = column("inertia", "moving mass", &stage.scene(), &[]);

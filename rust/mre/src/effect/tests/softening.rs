@@ -43,6 +43,34 @@ fn degradation_reaches_its_share_at_the_longest_path() {
 }
 
 #[test]
+fn wear_may_slow_down_by_a_logarithm_or_a_power() {
+    let stage = Stage::sine(2.0, 1.0, 5.0);
+    let at = |name: &str, own: f64, i: usize| {
+        law("cyclic_degradation", name).factors(&stage.scene(), &[0.3, own]).unwrap().stiffness[i]
+    };
+    // The path is 40 mm in all.
+    for (name, own, half) in [
+        ("path, logarithmic, stiffness", 2.0, 11.0_f64.ln() / 21.0_f64.ln()),
+        ("path, power, stiffness", 0.5, 0.5_f64.sqrt()),
+    ] {
+        close(at(name, own, 5000), 0.7, 2e-3);
+        close(at(name, own, 2500), 1.0 - 0.3 * half, 2e-3);
+    }
+}
+
+#[test]
+fn pinching_has_edges_of_any_sharpness_or_none() {
+    let stage = Stage::sine(2.0, 1.0, 1.0);
+    let at =
+        |name: &str, shape: &[f64]| law("pinching", name).factors(&stage.scene(), shape).unwrap().stiffness;
+    assert_eq!(at("edged, stiffness", &[0.4, 0.5, 2.0]), at("centred, stiffness", &[0.4, 0.5]));
+    let wide = at("wide, stiffness", &[0.4, 0.5]);
+    for (factor, x) in wide.iter().zip(stage.recording.displacement()) {
+        close(*factor, 1.0 - 0.4 / (1.0 + (x / 0.5).powi(2)), 1e-12);
+    }
+}
+
+#[test]
 fn a_law_on_a_part_leaves_the_others() {
     let stage = Stage::sine(2.0, 1.0, 5.0);
     let on = |name: &str, part: Part| {

@@ -1,0 +1,59 @@
+"""Laws of textbooks beside the first of an effect: named as what they are, with an exact form."""
+
+from collections.abc import Callable
+
+import mre_core
+import numpy as np
+import pytest
+from missing import campaign, with_series
+from mre_core import Recording
+from numpy.typing import NDArray
+
+Force = Callable[[Recording], NDArray[np.float64]]
+
+
+def slider(r: Recording) -> NDArray[np.float64]:
+    """2 N of friction that is elastic over 0.06 mm."""
+    z = np.zeros(len(r))
+    for i, step in enumerate(np.diff(r.displacement)):
+        z[i + 1] = np.clip(z[i] + step / 0.06, -1, 1)
+    return 2.0 * z
+
+
+def contact(r: Recording) -> NDArray[np.float64]:
+    """A spring and a dashpot beyond 3 mm."""
+    depth = np.maximum(np.abs(r.displacement) - 3, 0)
+    return np.asarray(6 * depth * np.sign(r.displacement) + 0.12 * r.velocity * (depth > 0))
+
+
+def narrow(r: Recording) -> NDArray[np.float64]:
+    """A third of the stiffness is lost within 0.7 mm, with sharp edges."""
+    return -4 * r.displacement * np.exp(-((r.displacement / 0.7) ** 6))
+
+
+def wear(r: Recording) -> NDArray[np.float64]:
+    """Softening with the logarithm of the path."""
+    path = np.concatenate([[0], np.cumsum(np.abs(np.diff(r.displacement)))])
+    elastic = 8 * r.displacement + 10 * np.sinh(0.3 * r.displacement)
+    return np.asarray(-0.05 * elastic * np.log1p(path / 2))
+
+
+@pytest.mark.parametrize(
+    ("law", "name", "parameters"),
+    [
+        (slider, ("coulomb_friction", "elastic slider"), {"F_c": 2, "z_y": 0.06}),
+        (contact, ("end_stop", "spring and dashpot"), {"k_c": 6, "c_c": 0.12, "g": 3}),
+        (narrow, ("pinching", "edged, stiffness"), {"w": 0.7}),
+        (wear, ("cyclic_degradation", "path, logarithmic, stiffness"), {"P_c": 2}),
+    ],
+)
+def test_a_law_is_named_with_its_parameters(
+    law: Force, name: tuple[str, str], parameters: dict[str, float]
+) -> None:
+    recordings = [with_series(r, force=np.asarray(r.force) + law(r)) for r in campaign(0.0)]
+    found = mre_core.diagnose(recordings, "sinh", seed=1)
+    (effect,) = found.effects
+    assert (effect.id, effect.law, effect.form) == (*name, "exact")
+    assert found.verdict == "missing_physics"
+    for symbol, wanted in parameters.items():
+        assert effect.parameters[symbol].value == pytest.approx(wanted, rel=0.1)
