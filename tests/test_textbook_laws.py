@@ -21,9 +21,9 @@ def slider(r: Recording) -> NDArray[np.float64]:
 
 
 def contact(r: Recording) -> NDArray[np.float64]:
-    """A spring and a dashpot beyond 3 mm."""
+    """A spring beyond 3 mm that dissipates by its depth."""
     depth = np.maximum(np.abs(r.displacement) - 3, 0)
-    return np.asarray(6 * depth * np.sign(r.displacement) + 0.12 * r.velocity * (depth > 0))
+    return np.asarray(depth * (6 * np.sign(r.displacement) + 0.15 * r.velocity))
 
 
 def narrow(r: Recording) -> NDArray[np.float64]:
@@ -42,7 +42,7 @@ def wear(r: Recording) -> NDArray[np.float64]:
     ("law", "name", "parameters"),
     [
         (slider, ("coulomb_friction", "elastic slider"), {"F_c": 2, "z_y": 0.06}),
-        (contact, ("end_stop", "spring and dashpot"), {"k_c": 6, "c_c": 0.12, "g": 3}),
+        (contact, ("end_stop", "both ends with damping"), {"k_c": 6, "c_c": 0.15, "g": 3}),
         (narrow, ("pinching", "edged, stiffness"), {"w": 0.7}),
         (wear, ("cyclic_degradation", "path, logarithmic, stiffness"), {"P_c": 2}),
     ],

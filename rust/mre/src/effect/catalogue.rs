@@ -324,7 +324,6 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &EndStop::Hertz,
     &EndStop::HuntCrossley,
     &EndStop::Flat,
-    &EndStop::Dashpot,
     &EndStop::Power,
     &EndStop::Uneven,
     &EndStop::UnevenHertz,

@@ -3,7 +3,7 @@
 //! | symbol | meaning | unit | range |
 //! |---|---|---|---|
 //! | `k_c` | stiffness of the stop | N/mm, N/mm^1.5 for Hertz contact, N/mm^p for a power | >= 0 |
-//! | `c_c` | damping of the contact: of a dashpot, over the depth, or over its power 1.5 | N s/mm, N s/mm^2, N s/mm^2.5 | >= 0 |
+//! | `c_c` | damping of the contact: over the depth, or over its power 1.5 | N s/mm^2, N s/mm^2.5 | >= 0 |
 //! | g | gap; where the ends differ, of the positive one | mm | 30 % to 99.5 % of the largest stroke |
 //! | `g_n` | gap of the negative end, where it is another | mm | 30 % to 99.5 % of the largest stroke |
 //! | p | power of the depth | - | 1 to 4 |
@@ -13,7 +13,7 @@
 
 use std::iter;
 
-use super::operators::{each, sign};
+use super::operators::each;
 use super::{About, Effect, Scene, Sizes, positive, within};
 use crate::parameter::Parameter;
 
@@ -32,8 +32,6 @@ pub(super) enum EndStop {
     HuntCrossley,
     /// At both ends, flat, and the contact dissipates the more the deeper it is.
     Flat,
-    /// At both ends, a spring with a dashpot beside it.
-    Dashpot,
     /// At both ends, of any power of the depth.
     Power,
     /// At both ends, one nearer than the other.
@@ -56,7 +54,7 @@ impl EndStop {
     }
 
     fn dissipates(self) -> bool {
-        matches!(self, Self::HuntCrossley | Self::Flat | Self::Dashpot)
+        matches!(self, Self::HuntCrossley | Self::Flat)
     }
 
     /// How deep the contact is at a displacement, mm: negative at the negative end.
@@ -101,11 +99,6 @@ impl Effect for EndStop {
                 equation: "F_s = d (k_c sgn x + c_c v), d = max(|x| - g, 0)",
                 ..both
             },
-            Self::Dashpot => About {
-                law: "spring and dashpot",
-                equation: "F_s = k_c (|x| - g) sgn x + c_c v where |x| > g",
-                ..both
-            },
             Self::Power => {
                 About { law: "power of the depth", equation: "F_s = k_c max(|x| - g, 0)^p sgn x", ..both }
             }
@@ -132,7 +125,6 @@ impl Effect for EndStop {
         let damping = match self {
             Self::HuntCrossley => Some("N s/mm^2.5"),
             Self::Flat => Some("N s/mm^2"),
-            Self::Dashpot => Some("N s/mm"),
             _ => None,
         };
         iter::once(positive("k_c", unit)).chain(damping.map(|unit| positive("c_c", unit))).collect()
@@ -172,10 +164,9 @@ impl Effect for EndStop {
                 _ => depth,
             }
         });
-        let over = |spring: f64| if *self == Self::Dashpot { sign(spring).abs() } else { spring.abs() };
         let damping = self
             .dissipates()
-            .then(|| spring.iter().zip(scene.velocity).map(|(spring, v)| over(*spring) * v).collect());
+            .then(|| spring.iter().zip(scene.velocity).map(|(spring, v)| spring.abs() * v).collect());
         iter::once(spring).chain(damping).collect()
     }
 }

@@ -195,18 +195,16 @@ fn a_sign_is_rounded_as_its_closed_forms() {
 }
 
 #[test]
-fn a_contact_follows_a_power_of_its_depth_and_may_have_a_dashpot() {
+fn a_contact_follows_a_power_of_its_depth_and_may_dissipate_by_it() {
     let stage = Stage::sine(3.0, 1.0, 2.0);
     let (x, v) = (stage.recording.displacement(), stage.recording.velocity());
     let power = column("end_stop", "power of the depth", &stage.scene(), &[1.5, 2.5]);
     let flat = law("end_stop", "both ends with damping").columns(&stage.scene(), &[1.5]);
-    let dashpot = law("end_stop", "spring and dashpot").columns(&stage.scene(), &[1.5]);
     for i in 0..x.len() {
         let depth = (x[i].abs() - 1.5).max(0.0);
         close(power[i], depth.powf(2.5) * x[i].signum(), 1e-12);
         close(flat[0][i], depth * x[i].signum(), 1e-12);
         close(flat[1][i], depth * v[i], 1e-12);
-        close(dashpot[1][i], if depth > 0.0 { v[i] } else { 0.0 }, 1e-12);
     }
 }
 
