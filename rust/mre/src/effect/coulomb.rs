@@ -5,10 +5,10 @@
 //! | `F_c` | friction force | N | >= 0 |
 //! | `z_y` | pre-sliding displacement (Dahl, slider) | mm | 0.01 % to 5 % of the largest stroke |
 //! | `v_s` | velocity over which the sign is smoothed | mm/s | 0.001 % to 5 % of the largest speed |
-//! | n | how soon it is reached | - | 1 to 4 |
+//! | n | how sharply the sign is rounded | - | 1 to 4 |
 //!
-//! Dahl's element and the slider are integrated exactly in the displacement. At the lower end of `v_s` the smoothed sign is the sign itself,
-//! as it is of a velocity that only its rounding keeps from zero.
+//! Dahl's element and the slider are integrated exactly in the displacement. At the lower end of `v_s` a smoothed or
+//! rounded sign is the sign itself, as it is of a velocity that only its rounding keeps from zero.
 //! Reference: Dahl, Aerospace Corporation TOR-0158(3107-18)-1, 1968; Jenkins 1962, for the slider.
 //! Known limit: where all strokes are long against `z_y`, its value is not determined.
 
@@ -38,7 +38,7 @@ pub(super) enum Coulomb {
     Slider,
     /// Over a velocity.
     Smoothed,
-    /// Over a velocity, as soon as may be.
+    /// Over a velocity, of any roundness.
     Rounded,
 }
 
@@ -87,15 +87,15 @@ impl Effect for Coulomb {
     }
 
     fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
-        if *self == Self::Rounded {
-            let at = |n| [0.003, 0.01, 0.035].map(|share| vec![share * sizes.velocity, n]);
-            return [1.2, 2.0].into_iter().flat_map(at).collect();
+        let (x, v) = (sizes.displacement, sizes.velocity);
+        match self {
+            Self::Dahl | Self::Slider => [0.001, 0.004, 0.012, 0.035].map(|share| vec![share * x]).to_vec(),
+            Self::Smoothed => [1e-4, 0.003, 0.01, 0.035].map(|share| vec![share * v]).to_vec(),
+            Self::Rounded => [1.2, 2.0]
+                .iter()
+                .flat_map(|n| [0.003, 0.01, 0.035].map(|share| vec![share * v, *n]))
+                .collect(),
         }
-        let (shares, size): (&[f64], f64) = match self {
-            Self::Dahl | Self::Slider => (&[0.001, 0.004, 0.012, 0.035], sizes.displacement),
-            _ => (&[1e-4, 0.003, 0.01, 0.035], sizes.velocity),
-        };
-        shares.iter().map(|share| vec![share * size]).collect()
     }
 
     fn columns(&self, scene: &Scene, shape: &[f64]) -> Vec<Vec<f64>> {

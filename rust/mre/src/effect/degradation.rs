@@ -13,7 +13,7 @@
 //! Reference: Baber and Wen, J. Eng. Mech. Div. 107 (1981) 1069.
 //! Known limit: over a few equal cycles it cannot be told from thermal softening.
 
-use super::operators::integral;
+use super::operators::{each, integral};
 use super::work::Work;
 use super::{About, Effect, Factors, Scene, Sizes, ideal_above, order_within, within};
 use crate::parameter::Parameter;
@@ -174,17 +174,17 @@ impl Effect for Degradation {
     }
 
     fn factors(&self, scene: &Scene, shape: &[f64]) -> Option<Factors> {
-        let mut progress = self.progress(scene);
-        let most = self.most(scene.sizes);
-        for p in &mut progress {
-            *p = match self.form {
-                Form::Steady => *p / most,
-                Form::Saturating => -(-*p / shape[1]).exp_m1(),
-                Form::Logarithmic => (*p / shape[1]).ln_1p() / (most / shape[1]).ln_1p(),
-                Form::Power => (*p / most).powf(shape[1]),
-                Form::Hyperbolic => *p / (shape[1] + *p),
-            };
-        }
-        Some(Factors::losing(shape[0], &progress, self.whole))
+        let (progress, most) = (self.progress(scene), self.most(scene.sizes));
+        let lost = match self.form {
+            Form::Steady => each(&progress, |p| p / most),
+            Form::Saturating => each(&progress, |p| -(-p / shape[1]).exp_m1()),
+            Form::Logarithmic => {
+                let all = (most / shape[1]).ln_1p();
+                each(&progress, |p| (p / shape[1]).ln_1p() / all)
+            }
+            Form::Power => each(&progress, |p| (p / most).powf(shape[1])),
+            Form::Hyperbolic => each(&progress, |p| p / (shape[1] + p)),
+        };
+        Some(Factors::losing(shape[0], &lost, self.whole))
     }
 }

@@ -58,9 +58,9 @@ impl EndStop {
     }
 
     /// How deep the contact is at a displacement, mm: negative at the negative end.
-    fn depth(self, x: f64, gaps: &[f64]) -> f64 {
-        let positive = gaps[0];
-        let negative = if self.is_uneven() { gaps[1] } else { positive };
+    fn depth(self, x: f64, shape: &[f64]) -> f64 {
+        let positive = shape[0];
+        let negative = if self.is_uneven() { shape[1] } else { positive };
         match self {
             Self::Positive => (x - positive).max(0.0),
             Self::Negative => (x + negative).min(0.0),

@@ -33,7 +33,8 @@ pub(super) fn dahl(scene: &Scene, z_y: f64) -> Vec<f64> {
     })
 }
 
-/// An elastic element of unit force that slips, `z' = v / z_y` within -1 and 1, from rest.
+/// An elastic element of unit force that slips, `z' = v / z_y` within -1 and 1, from rest: a [`stop`] that sees where the
+/// velocity turns within a step.
 pub(super) fn slider(scene: &Scene, z_y: f64) -> Vec<f64> {
     along(scene, |z, dx| (z + dx / z_y).clamp(-1.0, 1.0))
 }
