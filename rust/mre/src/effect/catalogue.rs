@@ -4,6 +4,7 @@ use super::Effect;
 use super::adiabatic::Adiabatic;
 use super::asymmetric::Asymmetric;
 use super::backlash::Backlash;
+use super::bristles::Bristles;
 use super::clipping::Clipping;
 use super::coulomb::Coulomb;
 use super::creep::Creep;
@@ -63,6 +64,7 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &Stribeck { fall: Fall::Exponential, rests: true },
     &Stribeck { fall: Fall::Hyperbolic, rests: false },
     &Stribeck { fall: Fall::Hyperbolic, rests: true },
+    &Bristles,
     &Hysteresis::BoucWen,
     &Hysteresis::Jenkins,
     &Hysteresis::Iwan,
@@ -318,6 +320,8 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &Backlash::RoundDeadZone,
     &Backlash::FreeDeadZone,
     &Backlash::Play,
+    &Backlash::SpringPlay,
+    &Backlash::Beside,
     &EndStop::Both,
     &EndStop::Positive,
     &EndStop::Negative,

@@ -121,7 +121,8 @@ impl Effect for Hysteresis {
                 ideal_below(within("sigma", "", 0.5, 2.0)),
                 ideal_above(ideal_below(Parameter { scale: Scale::Log, ..within("n", "", 1.0, 5.0) })),
             ],
-            Self::Jenkins | Self::Play => vec![order_within("r", "mm", 0.05 * x, 0.9 * x)],
+            Self::Jenkins => vec![order_within("r", "mm", 0.05 * x, 0.9 * x)],
+            Self::Play => vec![order_within("r", "mm", 0.005 * x, 0.9 * x)],
             Self::Iwan | Self::Plays => vec![order_within("r_max", "mm", 0.1 * x, 3.0 * x)],
             Self::PowerIwan => {
                 vec![
@@ -139,9 +140,8 @@ impl Effect for Hysteresis {
                 .into_iter()
                 .flat_map(|share| [vec![1.0 / (share * x), 0.8, 1.0], vec![1.0 / (share * x), 0.6, 2.5]])
                 .collect(),
-            Self::Jenkins | Self::Play => {
-                orders(0.05, 0.85, 7).into_iter().map(|share| vec![share * x]).collect()
-            }
+            Self::Jenkins => orders(0.05, 0.85, 7).into_iter().map(|share| vec![share * x]).collect(),
+            Self::Play => orders(0.005, 0.85, 9).into_iter().map(|share| vec![share * x]).collect(),
             Self::Iwan | Self::Plays => {
                 orders(0.12, 2.5, 6).into_iter().map(|share| vec![share * x]).collect()
             }

@@ -10,6 +10,7 @@ mod adiabatic;
 mod asymmetric;
 mod backlash;
 mod before;
+mod bristles;
 mod catalogue;
 mod clipping;
 mod coulomb;

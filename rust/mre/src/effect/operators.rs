@@ -41,15 +41,20 @@ pub(super) fn slider(scene: &Scene, z_y: f64) -> Vec<f64> {
 
 /// A state that follows the displacement alone, from rest; `moved` is what it becomes by a monotonic one.
 fn along(scene: &Scene, moved: impl Fn(f64, f64) -> f64) -> Vec<f64> {
+    at_speed(scene, |z, dx, _| moved(z, dx))
+}
+
+/// The same of a state that also sees how fast it is moved, as the mean velocity meanwhile.
+pub(super) fn at_speed(scene: &Scene, moved: impl Fn(f64, f64, f64) -> f64) -> Vec<f64> {
     let (time, v) = (scene.time, scene.velocity);
     scene.trace(0.0, |z, i| {
         let (h, a, b) = (0.5 * (time[i] - time[i - 1]), v[i - 1], v[i]);
         if a * b < 0.0 {
             // The velocity turns within the step: both ways count.
             let turn = a / (a - b);
-            moved(moved(z, h * a * turn), h * b * (1.0 - turn))
+            moved(moved(z, h * a * turn, 0.5 * a), h * b * (1.0 - turn), 0.5 * b)
         } else {
-            moved(z, h * (a + b))
+            moved(z, h * (a + b), 0.5 * (a + b))
         }
     })
 }

@@ -3,6 +3,7 @@
 mod channels;
 mod columns;
 mod every_law;
+mod friction;
 mod softening;
 mod steady;
 

@@ -114,6 +114,26 @@ fn free_play_removes_its_gap() {
 }
 
 #[test]
+fn a_spring_beside_the_device_has_no_force_within_its_gap() {
+    let stage = Stage::sine(2.0, 1.0, 2.0);
+    let force = column("backlash", "spring with a dead zone", &stage.scene(), &[0.5]);
+    for (force, x) in force.iter().zip(stage.recording.displacement()) {
+        assert!((force - x.signum() * (x.abs() - 0.5).max(0.0)).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn a_spring_with_play_leaves_the_damper_its_velocity() {
+    let stage = Stage::sine(2.0, 1.0, 2.0);
+    let scene = stage.scene();
+    let whole = law("backlash", "play").motion(&scene, &[0.3]).unwrap();
+    let spring = law("backlash", "play of the spring").motion(&scene, &[0.3]).unwrap();
+    assert_eq!(spring.displacement, whole.displacement);
+    assert_eq!(spring.velocity, scene.velocity);
+    assert_ne!(whole.velocity, scene.velocity);
+}
+
+#[test]
 fn a_gap_with_round_edges_is_crossed_smoothly() {
     let stage = Stage::sine(2.0, 1.0, 2.0);
     let law = law("backlash", "dead zone with round edges");

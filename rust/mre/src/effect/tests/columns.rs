@@ -155,46 +155,6 @@ fn a_uniform_iwan_body_loads_along_a_parabola() {
 }
 
 #[test]
-fn dahl_slides_as_its_closed_form_and_coulomb_dissipates_four_strokes() {
-    let stage = Stage::new(grid(1e-3, 1.0), |t| (t, 1.0), None);
-    let z = column("coulomb_friction", "Dahl", &stage.scene(), &[0.1]);
-    assert!((z[150] - (1.0 - (-1.5_f64).exp())).abs() < 1e-12);
-    let stage = Stage::sine(2.0, 1.0, 3.0);
-    let (time, v) = (stage.recording.time(), stage.recording.velocity());
-    for (name, shape) in [("Dahl", 1e-3), ("smoothed sign", 0.05)] {
-        let z = column("coulomb_friction", name, &stage.scene(), &[shape]);
-        let area: f64 =
-            (2000..3000).map(|i| 0.5 * (time[i + 1] - time[i]) * (z[i] * v[i] + z[i + 1] * v[i + 1])).sum();
-        close(area, 8.0, 2e-3);
-    }
-}
-
-#[test]
-fn a_slider_is_elastic_until_it_slips() {
-    let stage = Stage::new(grid(1e-3, 1.0), |t| (t, 1.0), None);
-    let z = column("coulomb_friction", "elastic slider", &stage.scene(), &[0.1]);
-    for (i, z) in z.iter().enumerate() {
-        assert!((z - (1e-2 * i as f64).min(1.0)).abs() < 1e-12);
-    }
-    let stage = Stage::sine(2.0, 1.0, 3.0);
-    let z = column("coulomb_friction", "elastic slider", &stage.scene(), &[0.25]);
-    let p = column("hysteresis", "elastic-plastic element", &stage.scene(), &[0.25]);
-    assert!(z.iter().zip(&p).all(|(z, p)| (0.25 * z - p).abs() < 1e-4));
-}
-
-#[test]
-fn a_sign_is_rounded_as_its_closed_forms() {
-    let stage = Stage::sine(2.0, 1.0, 1.0);
-    for n in [1.0, 2.0] {
-        let f = column("coulomb_friction", "rounded sign", &stage.scene(), &[0.1, n]);
-        for (f, v) in f.iter().zip(stage.recording.velocity()) {
-            let wanted = if n < 2.0 { v / (v.abs() + 0.1) } else { v / (v * v + 0.01).sqrt() };
-            assert!((f - wanted).abs() < 1e-12);
-        }
-    }
-}
-
-#[test]
 fn a_contact_follows_a_power_of_its_depth_and_may_dissipate_by_it() {
     let stage = Stage::sine(3.0, 1.0, 2.0);
     let (x, v) = (stage.recording.displacement(), stage.recording.velocity());
