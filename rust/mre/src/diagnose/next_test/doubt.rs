@@ -45,12 +45,13 @@ pub(super) struct Member {
 }
 
 impl Member {
-    /// Its likeliest model, and of its other laws the one that leaves least, each with its share of the likelihood: what
-    /// a parameter more costs says which law is to be named, not which is true.
-    pub(super) fn may_be_true(&self, left: impl Fn(usize) -> f64) -> Vec<(usize, f64)> {
+    /// Its likeliest model, and of its other laws the one that may best be true, each with its share of the likelihood:
+    /// what a parameter more costs where a law is to be named says little of which is true, but that it fits better by
+    /// chance (Akaike, IEEE Trans. Autom. Control 19 (1974) 716). `lacks` is that criterion.
+    pub(super) fn may_be_true(&self, lacks: impl Fn(usize) -> f64) -> Vec<(usize, f64)> {
         let others = self.models.iter().copied().filter(|model| *model != self.likeliest);
-        let least = others.min_by(|a, b| left(*a).total_cmp(&left(*b)));
-        let share = |model: usize| (0.5 * (left(self.likeliest) - left(model))).exp().min(1.0);
+        let least = others.min_by(|a, b| lacks(*a).total_cmp(&lacks(*b)));
+        let share = |model: usize| (0.5 * (lacks(self.likeliest) - lacks(model))).exp().min(1.0);
         let other = least.map(|model| (model, share(model))).filter(|(_, share)| *share > UNLIKELY);
         std::iter::once((self.likeliest, 1.0)).chain(other).collect()
     }
@@ -208,7 +209,7 @@ mod tests {
     }
 
     #[test]
-    fn another_law_may_be_true_where_only_its_price_speaks_against_it() {
+    fn another_law_may_be_true_as_far_as_it_fits() {
         let member = Member { effect: "thermal_softening", likeliest: 0, models: vec![0, 1, 2] };
         assert_eq!(member.may_be_true(|model| [10.0, 9.0, 12.0][model]), [(0, 1.0), (1, 1.0)]);
         assert_eq!(member.may_be_true(|model| [10.0, 40.0, 30.0][model]), [(0, 1.0)]);

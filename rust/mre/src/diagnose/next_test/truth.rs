@@ -25,7 +25,7 @@ pub(super) struct Truth<'a> {
     pub(super) model: usize,
     /// The model at these parameters.
     pub(super) candidate: Candidate<'a>,
-    /// Share of the likelihood.
+    /// Share of the likelihood; those of a model together have the model's.
     pub(super) weight: f64,
     /// What it leaves of the recordings more than the best fit, in squared standard deviations.
     pub(super) behind: f64,
@@ -53,7 +53,9 @@ pub(super) fn truths<'a>(
         })
     });
     let beside: Vec<Truth> = beside.collect();
-    std::iter::once(best).chain(beside).collect()
+    let whole: f64 = 1.0 + beside.iter().map(|truth| truth.weight / share).sum::<f64>();
+    let all = std::iter::once(best).chain(beside);
+    all.map(|truth| Truth { weight: truth.weight / whole, ..truth }).collect()
 }
 
 /// The direction of the shapes along which the recordings say least, as long as one standard deviation.
