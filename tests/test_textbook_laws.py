@@ -8,6 +8,7 @@ import pytest
 from missing import campaign, with_series
 from mre_core import Recording
 from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline  # type: ignore[import-untyped]
 
 Force = Callable[[Recording], NDArray[np.float64]]
 
@@ -38,9 +39,39 @@ def wear(r: Recording) -> NDArray[np.float64]:
     return np.asarray(-0.05 * elastic * np.log1p(path / 2))
 
 
+def bristles(r: Recording) -> NDArray[np.float64]:
+    """LuGre friction of 2 to 4 N, of bristles of 20 N/mm, in steps of a fortieth of a sample."""
+    fine = 40
+    time = np.interp(np.arange((len(r) - 1) * fine + 1) / fine, np.arange(len(r)), r.time)
+    v = CubicSpline(r.time, r.velocity)(0.5 * (time[1:] + time[:-1]))
+    g = 2 + 2 * np.exp(-((v / 8) ** 2))
+    z = np.zeros(len(time))
+    for i, (speed, held, step) in enumerate(zip(v, g, np.diff(time), strict=True)):
+        end = np.sign(speed) * held / 20
+        z[i + 1] = end + (z[i] - end) * np.exp(-20 * abs(speed) / held * step)
+    return np.asarray(20 * z[::fine])
+
+
+def loose(r: Recording) -> NDArray[np.float64]:
+    """A spring of 2 N/mm that is loose by 0.3 mm to both sides."""
+    return np.asarray(2 * (r.displacement - np.clip(r.displacement, -0.3, 0.3)))
+
+
+def dragging(r: Recording) -> NDArray[np.float64]:
+    """The spring of the device is dragged with a play of 0.15 mm, its damper is not."""
+    dragged = np.zeros(len(r))
+    for i, x in enumerate(r.displacement[1:]):
+        dragged[i + 1] = np.clip(dragged[i], x - 0.15, x + 0.15)
+    sprung = [8 * x + 10 * np.sinh(0.3 * x) for x in (dragged, r.displacement)]
+    return np.asarray(sprung[0] - sprung[1])
+
+
 @pytest.mark.parametrize(
     ("law", "name", "parameters"),
     [
+        (bristles, ("stribeck_friction", "LuGre"), {"F_c": 2, "r": 1, "v_s": 8, "z_y": 0.1}),
+        (loose, ("backlash", "spring with a dead zone"), {"k_g": 2, "g": 0.3}),
+        (dragging, ("backlash", "play of the spring"), {"g": 0.15}),
         (slider, ("coulomb_friction", "elastic slider"), {"F_c": 2, "z_y": 0.06}),
         (contact, ("end_stop", "both ends with damping"), {"k_c": 6, "c_c": 0.15, "g": 3}),
         (narrow, ("pinching", "edged, stiffness"), {"w": 0.7}),
