@@ -2,14 +2,12 @@
 //!
 //! | symbol | meaning | unit | range |
 //! |---|---|---|---|
-//! | g | half the free play | mm | 0 to half the largest stroke; to 0.3 of it beside the device |
-//! | `k_g` | stiffness beyond the play, beside the device | N/mm | >= 0 |
-//!
+//! | g | half the free play | mm | 0 to half the largest stroke |
 //! Reference: Nordin and Gutman, Automatica 38 (2002) 1633.
 //! Known limit: where g is small against all strokes only the jumps at reversals show it.
 
 use super::operators::each;
-use super::{About, Effect, Motion, Scene, Sizes, positive, within};
+use super::{About, Effect, Motion, Scene, Sizes, within};
 use crate::parameter::Parameter;
 
 /// Form of the free play.
@@ -25,12 +23,7 @@ pub(super) enum Backlash {
     Play,
     /// Its spring alone does.
     SpringPlay,
-    /// A spring beside the device has the gap, and the device has none.
-    Beside,
 }
-
-/// Largest gap of a spring beside the device, as a share of the largest displacement: a wider one is an end stop.
-const BESIDE: f64 = 0.3;
 
 /// Gaps that are tried where the velocity jumps with them: the smallest over the largest displacement, by which factor
 /// they rise, and how many they are.
@@ -39,7 +32,7 @@ const RATIO: f64 = 1.6;
 const COUNT: i32 = 15;
 
 /// Displacement beyond a gap of half width `g`.
-fn beyond(x: f64, g: f64) -> f64 {
+pub(super) fn beyond(x: f64, g: f64) -> f64 {
     x - x.clamp(-g, g)
 }
 
@@ -98,28 +91,16 @@ impl Effect for Backlash {
                 equation: "the device sees p = max(x - g, min(x + g, p before)) and the velocity of x",
                 ..dead_zone
             },
-            Self::Beside => About {
-                law: "spring with a dead zone",
-                plain: "there is free play: near the middle a part of the stiffness is missing",
-                equation: "F_g = k_g (x - min(max(x, -g), g))",
-                ..dead_zone
-            },
         }
     }
 
-    fn coefficients(&self) -> Vec<Parameter> {
-        if *self == Self::Beside { vec![positive("k_g", "N/mm")] } else { Vec::new() }
-    }
-
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
-        let widest = if *self == Self::Beside { BESIDE } else { 0.5 };
-        vec![Parameter { smallest: 0.0, ..within("g", "mm", 0.0, widest * sizes.displacement) }]
+        vec![Parameter { smallest: 0.0, ..within("g", "mm", 0.0, 0.5 * sizes.displacement) }]
     }
 
     fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
         let shares: Vec<f64> = match self {
             Self::DeadZone | Self::RoundDeadZone => vec![0.003, 0.01, 0.03, 0.08, 0.16, 0.3],
-            Self::Beside => vec![0.003, 0.01, 0.03, 0.07, 0.13, 0.22],
             // One of twice the right size explains nothing, and the fit jumps from sample to sample.
             Self::FreeDeadZone | Self::Play | Self::SpringPlay => {
                 (0..COUNT).map(|k| SMALLEST * RATIO.powi(k)).collect()
@@ -128,25 +109,16 @@ impl Effect for Backlash {
         shares.iter().map(|share| vec![share * sizes.displacement]).collect()
     }
 
-    fn columns(&self, scene: &Scene, shape: &[f64]) -> Vec<Vec<f64>> {
-        if *self == Self::Beside {
-            vec![each(scene.displacement, |x| beyond(x, shape[0]))]
-        } else {
-            Vec::new()
-        }
-    }
-
     fn motion(&self, scene: &Scene, shape: &[f64]) -> Option<Motion> {
         let (x, v, g) = (scene.displacement, scene.velocity, shape[0]);
         let displacement = match self {
             Self::DeadZone | Self::FreeDeadZone => each(x, |x| beyond(x, g)),
             Self::RoundDeadZone => each(x, |x| x - round(x, g)),
             Self::Play | Self::SpringPlay => dragged(scene, g),
-            Self::Beside => return None,
         };
         let moving = |i: usize| match self {
             Self::RoundDeadZone if g > 0.0 => ((x[i] - displacement[i]) / g).powi(2),
-            Self::DeadZone | Self::RoundDeadZone | Self::SpringPlay | Self::Beside => 1.0,
+            Self::DeadZone | Self::RoundDeadZone | Self::SpringPlay => 1.0,
             Self::FreeDeadZone => f64::from(displacement[i] != 0.0),
             // At one end of the gap.
             Self::Play => f64::from((x[i] - displacement[i]).abs() >= g * (1.0 - 1e-9)),

@@ -8,7 +8,7 @@
 //! | `z_y` | pre-sliding displacement at speed | mm | 0.01 % to 5 % of the largest stroke |
 //! | r | excess of the break-away force as a share of `F_c` | - | 0.02 to 3 |
 //!
-//! `F_c / z_y` is the stiffness of the bristles, sigma_0; the viscous term belongs to the base model.
+//! `F_c / z_y` is the stiffness of the bristles, `sigma_0`; the viscous term belongs to the base model.
 //! Reference: Canudas de Wit, Olsson, Astrom and Lischinsky, IEEE Trans. Autom. Control 40 (1995) 419.
 //! Known limit: at speeds above three times `v_s` it is Coulomb friction.
 
@@ -21,7 +21,7 @@ const FALLS: [f64; 4] = [0.01, 0.04, 0.12, 0.4];
 const SHARP: [f64; 2] = [2e-3, 1.5e-2];
 const EXCESS: f64 = 0.5;
 
-/// The LuGre law with a Gaussian excess.
+/// The `LuGre` law with a Gaussian excess.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Bristles;
 

@@ -19,6 +19,7 @@ use super::filter_lag::FilterLag;
 use super::fractional::Fractional;
 use super::hysteresis::Hysteresis;
 use super::inertia::Inertia;
+use super::loose_spring::LooseSpring;
 use super::mains::Mains;
 use super::maxwell::Maxwell;
 use super::mullins::{Mullins, Softening};
@@ -321,7 +322,7 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &Backlash::FreeDeadZone,
     &Backlash::Play,
     &Backlash::SpringPlay,
-    &Backlash::Beside,
+    &LooseSpring,
     &EndStop::Both,
     &EndStop::Positive,
     &EndStop::Negative,

@@ -29,6 +29,7 @@ mod fractional;
 mod hysteresis;
 mod inertia;
 mod initial_state;
+mod loose_spring;
 mod mains;
 mod maxwell;
 mod mullins;
