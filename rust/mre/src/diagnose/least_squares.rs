@@ -32,6 +32,11 @@ impl Fitted {
         self.coefficients.len() + self.unit.len()
     }
 
+    /// Whitened criterion of Akaike, up to a constant: what is left more than parameters take by chance.
+    pub(super) fn beyond_chance(&self) -> f64 {
+        self.left + 2.0 * self.parameters() as f64
+    }
+
     /// Whitened Bayesian information criterion, up to a constant.
     pub(super) fn criterion(&self) -> f64 {
         self.left + self.parameters() as f64 * (self.rows as f64).ln()

@@ -3,6 +3,7 @@
 //! | symbol | meaning | unit | range |
 //! |---|---|---|---|
 //! | g | half the free play | mm | 0 to half the largest stroke |
+//!
 //! Reference: Nordin and Gutman, Automatica 38 (2002) 1633.
 //! Known limit: where g is small against all strokes only the jumps at reversals show it.
 

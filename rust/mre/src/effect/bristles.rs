@@ -13,7 +13,8 @@
 //! Known limit: at speeds above three times `v_s` it is Coulomb friction.
 
 use super::operators::{at_speed, sign};
-use super::{About, Effect, Scene, Sizes, ideal_below, order_within, positive};
+use super::stribeck::{Fall, Stribeck};
+use super::{About, Effect, Scene, Sizes, order_within, positive};
 use crate::parameter::Parameter;
 
 /// Values from which a fit starts, as shares of the largest speed and stroke, and of the excess.
@@ -21,24 +22,26 @@ const FALLS: [f64; 4] = [0.01, 0.04, 0.12, 0.4];
 const SHARP: [f64; 2] = [2e-3, 1.5e-2];
 const EXCESS: f64 = 0.5;
 
+/// The law whose excess falls as soon as the speed rises.
+const ON_THE_SPOT: Stribeck = Stribeck { fall: Fall::Gaussian, rests: false };
+
 /// The `LuGre` law with a Gaussian excess.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Bristles;
 
 /// Steady deflection at a speed, as a multiple of that at high speed.
 fn steady(v: f64, shape: &[f64]) -> f64 {
-    1.0 + shape[2] * (-(v / shape[0]).powi(2)).exp()
+    1.0 + shape[2] * Fall::Gaussian.excess(v / shape[0])
 }
 
 impl Effect for Bristles {
     fn about(&self) -> About {
         About {
-            effect: "stribeck_friction",
             law: "LuGre",
             plain: "dry friction acts against the motion, is larger at low speed and follows it over a displacement",
             equation: "F_f = F_c z, dz/dt = (v - |v| z/g)/z_y, g = 1 + r exp(-(v/v_s)^2)",
             reference: "Canudas de Wit, Olsson, Astrom and Lischinsky 1995",
-            limit: "above three times v_s it is Coulomb friction",
+            ..ON_THE_SPOT.about()
         }
     }
 
@@ -47,12 +50,8 @@ impl Effect for Bristles {
     }
 
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
-        let (x, v) = (sizes.displacement, sizes.velocity);
-        vec![
-            ideal_below(order_within("v_s", "mm/s", 0.005 * v, 0.6 * v)),
-            ideal_below(order_within("z_y", "mm", 1e-4 * x, 0.05 * x)),
-            order_within("r", "", 0.02, 3.0),
-        ]
+        let excess = order_within("r", "", 0.02, 3.0);
+        ON_THE_SPOT.shape(sizes).into_iter().chain([excess]).collect()
     }
 
     fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {

@@ -8,7 +8,7 @@
 //! Reference: Nordin and Gutman, Automatica 38 (2002) 1633.
 //! Known limit: where g is small against all strokes it is part of the stiffness and a faint kink.
 
-use super::backlash::beyond;
+use super::backlash::{Backlash, beyond};
 use super::operators::each;
 use super::{About, Effect, Scene, Sizes, positive, within};
 use crate::parameter::Parameter;
@@ -20,12 +20,10 @@ pub(super) struct LooseSpring;
 impl Effect for LooseSpring {
     fn about(&self) -> About {
         About {
-            effect: "backlash",
             law: "spring with a dead zone",
             plain: "there is free play: near the middle a part of the stiffness is missing",
             equation: "F_g = k_g (x - min(max(x, -g), g))",
-            reference: "Nordin and Gutman 2002",
-            limit: "where the play is small against all strokes it is hardly visible",
+            ..Backlash::DeadZone.about()
         }
     }
 

@@ -42,7 +42,7 @@ pub(super) enum Fall {
 
 impl Fall {
     /// Share of the excess at the speed `u v_s`.
-    fn excess(self, u: f64) -> f64 {
+    pub(super) fn excess(self, u: f64) -> f64 {
         match self {
             Self::Gaussian => (-u * u).exp(),
             Self::Exponential => (-u).exp(),

@@ -57,10 +57,7 @@ impl<'b, 'a> Bench<'b, 'a> {
         let data = Data { noise: &named.noise, rows, monitor };
         let held: Vec<Held> = models.par_iter().map(|model| Held::of(model, data)).collect();
         let places = doubt.places(named, &criteria(&models));
-        let lacks = |model: usize| {
-            let fitted = &models[model].fitted;
-            fitted.left + 2.0 * fitted.parameters() as f64
-        };
+        let lacks = |model: usize| models[model].fitted.beyond_chance();
         let in_doubt = places.iter().flatten().flat_map(|member| member.may_be_true(lacks));
         let mut true_ones: Vec<(usize, f64)> = std::iter::once((0, 1.0)).chain(in_doubt).collect();
         true_ones.sort_by_key(|(model, _)| *model);

@@ -40,22 +40,24 @@ pub(super) fn truths<'a>(
     held: &Held,
     data: Data,
 ) -> Vec<Truth<'a>> {
-    let best = Truth { model: place, candidate: model.clone(), weight: share, behind: 0.0 };
-    let Some(open) = least_held(held, model.fitted.unit.len()) else { return vec![best] };
+    let best = Truth { model: place, candidate: model.clone(), weight: 1.0, behind: 0.0 };
+    let Some(open) = least_held(held, model.fitted.unit.len()) else {
+        return vec![Truth { weight: share, ..best }];
+    };
     let beside = [-1.0, 1.0].par_iter().filter_map(|side| {
         let far = (0..=HALVINGS).map(|halvings| side * 0.5_f64.powi(halvings as i32));
         far.map(|far| point(model, &open, far, data)).find_map(|found| {
             let (candidate, moved) = found;
             let behind = (candidate.fitted.left - model.fitted.left).max(0.0);
             let likely = (-0.5 * behind).exp();
-            let truth = Truth { model: place, candidate, weight: share * likely, behind };
+            let truth = Truth { model: place, candidate, weight: likely, behind };
             (moved > HELD && likely > LIKELY).then_some(truth)
         })
     });
     let beside: Vec<Truth> = beside.collect();
-    let whole: f64 = 1.0 + beside.iter().map(|truth| truth.weight / share).sum::<f64>();
-    let all = std::iter::once(best).chain(beside);
-    all.map(|truth| Truth { weight: truth.weight / whole, ..truth }).collect()
+    let all: Vec<Truth> = std::iter::once(best).chain(beside).collect();
+    let whole: f64 = all.iter().map(|truth| truth.weight).sum();
+    all.into_iter().map(|truth| Truth { weight: share * truth.weight / whole, ..truth }).collect()
 }
 
 /// The direction of the shapes along which the recordings say least, as long as one standard deviation.
