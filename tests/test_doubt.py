@@ -1,5 +1,6 @@
 """What a diagnosis admits: physics of no catalogue, effects ruled out, and what to test next."""
 
+import json
 from pathlib import Path
 from typing import Any
 
@@ -73,6 +74,34 @@ def test_one_frequency_hides_inertia_and_a_test_is_proposed(one_frequency: mre_c
     assert all(0 <= chance <= 1 for chance in proposal["chances"].values())
     worth = [sum(p["chances"].values()) for p in [proposal, *proposal["others"]]]
     assert worth[0] >= max(worth) - 0.1
+
+
+def steady_filtered(frequency: float, amplitude: float) -> Recording:
+    """Spring and dashpot through a filter of the first order, which are just as well a spring in series."""
+    rng = np.random.default_rng(round(10 * frequency))
+    time = np.arange(0, 10, 0.01)
+    turn = 2j * np.pi * frequency
+    phasor = amplitude * np.exp(turn * time)
+    force = np.imag((5.0 + 0.4 * turn) / (1 + 0.01 * turn) * phasor)
+    force += 0.005 * np.abs(force).max() * rng.normal(size=len(time))
+    velocity = np.imag(turn * phasor)
+    return Recording(time, np.imag(phasor), force, velocity=velocity, name=f"{frequency:g} Hz")
+
+
+def test_what_no_motion_tells_comes_with_what_else_would(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    files = write_all(tmp_path, [steady_filtered(*sine) for sine in ((0.5, 5.0), (2.0, 3.0), (5.0, 1.0))])
+    out = tmp_path / "result"
+    assert (
+        main(["diagnose", *map(str, files), "--base", "kelvin_voigt", "--out", str(out), "--seed", "1"]) == 0
+    )
+    (effect,) = json.loads((out / "diagnosis.json").read_text(encoding="utf-8"))["effects"]
+    twins = {"filter_lag", "rig_compliance"}
+    assert {effect["id"], *effect["no_test_tells"]} == twins == effect["checks"].keys()
+    said = " ".join(capsys.readouterr().out.split())
+    assert "to tell filter_lag: drive a steel spring" in said
+    assert "to tell rig_compliance: measure the displacement between" in said
 
 
 @pytest.mark.parametrize("cut", [3.0, 3.1])

@@ -98,7 +98,9 @@ def everything(recording: Recording) -> dict[str, Any]:
         *(uncertainty, uncertainty.parameters[0], mre_core.profile(problem, x)[0]),
         *(mre_core.bootstrap(problem, x, 3, seed=1), mre_core.certificate(problem, found.result)),
         *(loops, loops.measured[0], found.result.reason, mre_core.diagnose(recordings, "sinh", seed=1)),
-        MissingEffect("inertia", "moving mass", "a", "b", "c", {}, 0.0, "exact", 0.0, (), (), (), 2.0, 1.0),
+        MissingEffect(
+            "inertia", "moving mass", "a", "b", "c", {}, 0.0, "exact", 0.0, (), (), {}, (), 2.0, 1.0
+        ),
         *(mre_core.InputError("a", file="f", line=3, wanted="b"), MreError("a")),
         *(
             mre_core.UnitAssumedWarning("a"),

@@ -58,8 +58,11 @@ def run(trial: Trial) -> Resolved:
     after = _said(_diagnosed(trial, (proposed(proposal, current=1.0),)))
     (truth,) = trial.case.effects
     left = frozenset(proposal["leaves"][truth]) if truth in proposal["leaves"] else None
-    kind, expected = str(proposal["excitation"]), float(proposal["certainty"])
-    return Resolved(trial, before, told, after, kind, expected, left)
+    # Of a rival that is nearly as good no more is given than the chance that it is shown or ruled out.
+    certainty = proposal["certainty"]
+    expected = min(proposal["chances"][one] for one in told) if certainty is None else certainty
+    kind = str(proposal["excitation"])
+    return Resolved(trial, before, told, after, kind, float(expected), left)
 
 
 def proposed(proposal: Mapping[str, Any], current: float) -> Excitation:

@@ -127,10 +127,10 @@ impl Kind {
     }
 }
 
-/// From zero to one with continuous slope.
+/// From zero to one with continuous slope and bend: where the bend jumps, models at the samples differ by their errors.
 fn smooth(share: f64) -> f64 {
     let s = share.clamp(0.0, 1.0);
-    s * s * (3.0 - 2.0 * s)
+    s * s * s * (10.0 - 15.0 * s + 6.0 * s * s)
 }
 
 /// Scaled into stroke and speed.
@@ -150,7 +150,7 @@ fn amplitudes(time: &[f64], duration: f64, frequency: f64, stroke: f64) -> Vec<f
         .map(|t| {
             let k = ((t / each) as usize).min(LEVELS.len() - 1);
             let own = t - k as f64 * each;
-            let rise = 0.5 * (1.0 / frequency).min(0.25 * moving);
+            let rise = (1.0 / frequency).min(0.25 * moving);
             let ends = smooth(own / rise) * smooth((moving - own) / rise);
             stroke * LEVELS[k] * ends * (TAU * frequency * own).sin()
         })

@@ -31,8 +31,8 @@ pub(super) struct Truth<'a> {
     pub(super) behind: f64,
 }
 
-/// The best fit of a model with a share of the likelihood, and where the recordings leave shapes open points a standard deviation to both sides along what they
-/// hold least.
+/// The best fit of a model with a share of the likelihood, and where the recordings leave shapes of its effects open
+/// points a standard deviation to both sides along what they hold least.
 pub(super) fn truths<'a>(
     place: usize,
     share: f64,
@@ -41,7 +41,7 @@ pub(super) fn truths<'a>(
     data: Data,
 ) -> Vec<Truth<'a>> {
     let best = Truth { model: place, candidate: model.clone(), weight: 1.0, behind: 0.0 };
-    let Some(open) = least_held(held, model.fitted.unit.len()) else {
+    let Some(open) = least_held(held, model.assembly.base_shapes(), model.fitted.unit.len()) else {
         return vec![Truth { weight: share, ..best }];
     };
     let beside = [-1.0, 1.0].par_iter().filter_map(|side| {
@@ -60,29 +60,34 @@ pub(super) fn truths<'a>(
     all.into_iter().map(|truth| Truth { weight: share * truth.weight / whole, ..truth }).collect()
 }
 
-/// The direction of the shapes along which the recordings say least, as long as one standard deviation.
-fn least_held(held: &Held, shapes: usize) -> Option<Vec<f64>> {
+/// The direction of the effects' shapes along which the recordings say least, as long as one standard deviation, where
+/// the coefficients and the first shapes, those of the base, follow.
+fn least_held(held: &Held, base: usize, shapes: usize) -> Option<Vec<f64>> {
     let gram = held.gram();
-    let k = gram.nrows() - shapes;
-    if shapes == 0 {
+    let (k, first) = (gram.nrows() - shapes, gram.nrows() - shapes + base);
+    if shapes == base {
         return None;
     }
     let scale: Vec<f64> =
-        (0..k).map(|i| if gram[(i, i)] > 0.0 { gram[(i, i)].sqrt() } else { 1.0 }).collect();
-    let own = DMatrix::from_fn(k, k, |i, j| {
-        let ridge = if i == j { RIDGE + f64::from(u8::from(gram[(i, i)] <= 0.0)) } else { 0.0 };
-        gram[(i, j)] / (scale[i] * scale[j]) + ridge
+        (0..first).map(|i| if gram[(i, i)] > 0.0 { gram[(i, i)].sqrt() } else { 1.0 }).collect();
+    let prior = |i: usize| if i < k { 0.0 } else { OPEN.powi(-2) };
+    let own = DMatrix::from_fn(first, first, |i, j| {
+        let missing = f64::from(u8::from(gram[(i, i)] <= 0.0));
+        let added = if i == j { RIDGE + missing + prior(i) / scale[i].powi(2) } else { 0.0 };
+        gram[(i, j)] / (scale[i] * scale[j]) + added
     });
-    let cross = DMatrix::from_fn(k, shapes, |i, j| gram[(i, k + j)] / scale[i]);
+    let count = shapes - base;
+    let cross = DMatrix::from_fn(first, count, |i, j| gram[(i, first + j)] / scale[i]);
     let shared = cross.transpose() * own.cholesky()?.solve(&cross);
-    let alone = DMatrix::from_fn(shapes, shapes, |i, j| {
-        let prior = if i == j { OPEN.powi(-2) } else { 0.0 };
-        gram[(k + i, k + j)] - 0.5 * (shared[(i, j)] + shared[(j, i)]) + prior
+    let alone = DMatrix::from_fn(count, count, |i, j| {
+        let known = if i == j { prior(first + i) } else { 0.0 };
+        gram[(first + i, first + j)] - 0.5 * (shared[(i, j)] + shared[(j, i)]) + known
     });
     let SymmetricEigen { eigenvalues, eigenvectors } = alone.symmetric_eigen();
     let least = eigenvalues.imin();
     let deviation = eigenvalues[least].max(OPEN.powi(-2)).powf(-0.5);
-    (deviation > HELD).then(|| eigenvectors.column(least).iter().map(|v| deviation * v).collect())
+    let along = eigenvectors.column(least).iter().map(|v| deviation * v).collect::<Vec<f64>>();
+    (deviation > HELD).then(|| [vec![0.0; base], along].concat())
 }
 
 /// A model so far along a direction, with the best coefficients there, and how far its shapes have moved in the box.
