@@ -41,7 +41,7 @@ pub(super) fn truths<'a>(
     data: Data,
 ) -> Vec<Truth<'a>> {
     let best = Truth { model: place, candidate: model.clone(), weight: 1.0, behind: 0.0 };
-    let Some(open) = least_held(held, model.assembly.base_shapes(), model.fitted.unit.len()) else {
+    let Some(open) = least_held(held.gram(), model.assembly.base_shapes(), model.fitted.unit.len()) else {
         return vec![Truth { weight: share, ..best }];
     };
     let beside = [-1.0, 1.0].par_iter().filter_map(|side| {
@@ -61,9 +61,8 @@ pub(super) fn truths<'a>(
 }
 
 /// The direction of the effects' shapes along which the recordings say least, as long as one standard deviation, where
-/// the coefficients and the first shapes, those of the base, follow.
-fn least_held(held: &Held, base: usize, shapes: usize) -> Option<Vec<f64>> {
-    let gram = held.gram();
+/// the coefficients and the first shapes, those of the base, follow. `gram` is of the coefficients and then the shapes.
+fn least_held(gram: &DMatrix<f64>, base: usize, shapes: usize) -> Option<Vec<f64>> {
     let (k, first) = (gram.nrows() - shapes, gram.nrows() - shapes + base);
     if shapes == base {
         return None;
@@ -78,7 +77,8 @@ fn least_held(held: &Held, base: usize, shapes: usize) -> Option<Vec<f64>> {
     });
     let count = shapes - base;
     let cross = DMatrix::from_fn(first, count, |i, j| gram[(i, first + j)] / scale[i]);
-    let shared = cross.transpose() * own.cholesky()?.solve(&cross);
+    let follows = own.cholesky()?.solve(&cross);
+    let shared = cross.transpose() * &follows;
     let alone = DMatrix::from_fn(count, count, |i, j| {
         let known = if i == j { prior(first + i) } else { 0.0 };
         gram[(first + i, first + j)] - 0.5 * (shared[(i, j)] + shared[(j, i)]) + known
@@ -86,8 +86,10 @@ fn least_held(held: &Held, base: usize, shapes: usize) -> Option<Vec<f64>> {
     let SymmetricEigen { eigenvalues, eigenvectors } = alone.symmetric_eigen();
     let least = eigenvalues.imin();
     let deviation = eigenvalues[least].max(OPEN.powi(-2)).powf(-0.5);
-    let along = eigenvectors.column(least).iter().map(|v| deviation * v).collect::<Vec<f64>>();
-    (deviation > HELD).then(|| [vec![0.0; base], along].concat())
+    let along = deviation * eigenvectors.column(least);
+    let followed = follows * &along;
+    let of_base = (k..first).map(|i| -followed[i] / scale[i]);
+    (deviation > HELD).then(|| of_base.chain(along.iter().copied()).collect())
 }
 
 /// A model so far along a direction, with the best coefficients there, and how far its shapes have moved in the box.
@@ -102,4 +104,45 @@ fn point<'a>(model: &Candidate<'a>, open: &[f64], far: f64, data: Data) -> (Cand
         fitted = Point::at(&assembly, data, fitted.unit).fitted;
     }
     (Candidate { assembly, fitted }, moved)
+}
+
+#[cfg(test)]
+#[allow(clippy::expect_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_the_base_can_make_up_for_is_open_and_the_base_follows() {
+        // A coefficient, a shape of the base, two of an effect: the first is held, but for what the base makes up for.
+        let gram = DMatrix::from_row_slice(
+            4,
+            4,
+            &[
+                4.0,
+                0.0,
+                0.0,
+                0.0, //
+                0.0,
+                1e6,
+                1e6,
+                0.0, //
+                0.0,
+                1e6,
+                1e6 + 100.0,
+                0.0, //
+                0.0,
+                0.0,
+                0.0,
+                1e4,
+            ],
+        );
+        let open = least_held(&gram, 1, 3).expect("a direction");
+        // The base's own prior holds it a little.
+        let left = 100.0 + 2.0 * OPEN.powi(-2);
+        assert!((open[1].abs() - left.powf(-0.5)).abs() < 1e-5, "{open:?}");
+        assert!((open[0] + open[1]).abs() < 1e-4 * open[1].abs() && open[2].abs() < 1e-9, "{open:?}");
+        // Every other truth of one that is held is the same truth.
+        assert!(least_held(&DMatrix::from_diagonal_element(2, 2, 1e6), 0, 1).is_none());
+        assert!(least_held(&gram.view((0, 0), (2, 2)).into_owned(), 1, 1).is_none());
+    }
 }
