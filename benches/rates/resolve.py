@@ -25,8 +25,8 @@ class Resolved:
     """As before, with the test; the same where none is to tell anything."""
     excitation: str | None = None
     """Kind of the proposed test."""
-    expected: float = 0.0
-    """Chance, as the tool gives it, that one effect alone is left."""
+    expected: float | None = None
+    """Chance, as the tool gives it, that one effect alone is left; none of rivals that are nearly as good."""
     left: frozenset[str] | None = None
     """What the tool expects to be left in doubt beside the truth; None: it expects nothing of it."""
 
@@ -58,11 +58,8 @@ def run(trial: Trial) -> Resolved:
     after = _said(_diagnosed(trial, (proposed(proposal, current=1.0),)))
     (truth,) = trial.case.effects
     left = frozenset(proposal["leaves"][truth]) if truth in proposal["leaves"] else None
-    # Of a rival that is nearly as good no more is given than the chance that it is shown or ruled out.
-    certainty = proposal["certainty"]
-    expected = min(proposal["chances"][one] for one in told) if certainty is None else certainty
-    kind = str(proposal["excitation"])
-    return Resolved(trial, before, told, after, kind, float(expected), left)
+    kind, expected = str(proposal["excitation"]), proposal["certainty"]
+    return Resolved(trial, before, told, after, kind, expected, left)
 
 
 def proposed(proposal: Mapping[str, Any], current: float) -> Excitation:

@@ -95,7 +95,7 @@ def resolved(found: Sequence[Resolved]) -> str:
         (
             what,
             len(own),
-            f"{100 * sum(r.expected for r in own) / max(len(own), 1):.0f} %",
+            _expected(own),
             Rate(sum(r.right for r in own), len(own)),
             Rate(sum(r.as_told for r in own), len(own)),
             sum(len(r.after) > 1 and set(r.trial.case.effects) <= r.after for r in own),
@@ -110,7 +110,7 @@ def resolved(found: Sequence[Resolved]) -> str:
     )
     of_all = Rate(sum(r.right for r in tested), len(doubted))
     hopeless = [r for r in doubted if not r.told]
-    sure = [r for r in tested if r.expected >= SURE]
+    sure = [r for r in tested if r.expected is not None and r.expected >= SURE]
     alone = [r for r in tested if r.left == frozenset()]
     text = (
         f"Of {len(found)} campaigns {len(doubted)} left several, the truth among them."
@@ -122,6 +122,13 @@ def resolved(found: Sequence[Resolved]) -> str:
         f" Not resolved: {_listed([r for r in tested if not r.right])}."
     )
     return f"{table(head, rows)}\n\n{text}"
+
+
+def _expected(found: Sequence[Resolved]) -> str:
+    """Mean of the chances that are given, and how many are not."""
+    given = [r.expected for r in found if r.expected is not None]
+    mean = f"{100 * sum(given) / len(given):.0f} %" if given else "-"
+    return mean if len(given) == len(found) else f"{mean} ({len(found) - len(given)} without)"
 
 
 def _listed(found: Sequence[Resolved]) -> str:

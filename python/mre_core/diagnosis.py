@@ -45,7 +45,7 @@ class MissingEffect:
     no_test_tells: tuple[str, ...]
     """Those of them that the proposed test, the best within the limits, is not expected to tell from it."""
     checks: Mapping[str, str]
-    """What else would tell, of the effect and of those, by id: a measurement, or another thing to move."""
+    """How else to tell it from those of ``indistinguishable_from`` where something simple does, by id."""
     at_the_end: tuple[str, ...]
     """Parameters that the recordings press to the end of their range, or that cannot be told from nothing and
     without which it is another effect: the name is then the nearest one, and the form approximate."""

@@ -11,6 +11,7 @@ from ._core import Recording
 from .diagnosis import Comparison, Estimate, MissingEffect
 from .effects import Effect
 from .model import Level
+from .told_apart import check
 
 Series = NDArray[np.float64]
 Raw = Mapping[str, Any]
@@ -66,13 +67,11 @@ def missing_effects(raw: Raw, names: Sequence[str], force: float) -> tuple[Missi
     still = [effect["of_the_measurement"] for effect in raw["effects"]]
     doubted = still.index(False) if False in still else 0
     hopeless = [] if raw["next_test"] is None else _told(raw["next_test"]["prospects"][0], enough=False)
-    checks = {row["id"]: row["checked_by"] for row in reversed(_core.catalogue())}
     for rank, effect in enumerate(raw["effects"]):
         at_the_end = tuple(effect["at_the_end"])
         leaves = rank == doubted and raw["approximate"]
         shows = _shows(effect, raw["where"], names) if rank == 0 else None
-        untold = tuple(id for id in effect["indistinguishable_from"] if id in hopeless)
-        in_doubt = (effect["id"], *untold) if untold else ()
+        rivals = tuple(effect["indistinguishable_from"])
         found.append(
             MissingEffect(
                 id=effect["id"],
@@ -84,9 +83,9 @@ def missing_effects(raw: Raw, names: Sequence[str], force: float) -> tuple[Missi
                 p_value=effect["p_value"],
                 form="approximate" if leaves or at_the_end else "exact",
                 lack_of_fit=raw["lack_of_fit_N"] / force if leaves else 0.0,
-                indistinguishable_from=tuple(effect["indistinguishable_from"]),
-                no_test_tells=untold,
-                checks={id: checks[id] for id in in_doubt if checks[id]},
+                indistinguishable_from=rivals,
+                no_test_tells=tuple(id for id in rivals if id in hopeless),
+                checks={id: how for id in rivals if (how := check(effect["id"], id))},
                 at_the_end=at_the_end,
                 held_out_rms_before=_known(effect["held_out_rms_before"]),
                 held_out_rms_after=_known(effect["held_out_rms_after"]),

@@ -56,8 +56,8 @@ def print_diagnosis(found: "Diagnosis") -> None:
                 out.print(
                     f"{effect.id}: the best test within the limits is not expected to tell it from {rest}"
                 )
-            for id, check in effect.checks.items():
-                out.print(f"to tell {id}: {check}")
+            for id, how in effect.checks.items():
+                out.print(f"{effect.id}: to tell it from {id}, {how}")
             if effect.form == "approximate" and (effect.lack_of_fit or not effect.at_the_end):
                 adds = f" (a further effect would add {100 * effect.lack_of_fit:.2g} % of the force)"
                 left = adds if effect.lack_of_fit else ""

@@ -12,8 +12,7 @@ use crate::error::{MreError, setting};
 /// Id, law, coefficients, shapes.
 pub(crate) type Given = (String, String, Vec<f64>, Vec<f64>);
 
-/// Every law of every effect: its id and law, what it is in plain words, equation, reference and limit,
-/// and what tells it from others where no motion does.
+/// Every law of every effect: its id and law, what it is in plain words, equation, reference and limit.
 #[pyfunction]
 pub(crate) fn catalogue(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
     let row = |known: &&'static dyn Effect| {
@@ -24,7 +23,6 @@ pub(crate) fn catalogue(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
         row.set_item("equation", about.equation)?;
         row.set_item("reference", about.reference)?;
         row.set_item("limit", about.limit)?;
-        row.set_item("checked_by", known.checked_by())?;
         row.set_item("of_the_measurement", known.of_the_measurement())?;
         Ok(row)
     };

@@ -145,10 +145,6 @@ impl Effect for Degradation {
         }
     }
 
-    fn checked_by(&self) -> Option<&'static str> {
-        Some("repeat the first recording after hours of rest: wear is still there, heat is not")
-    }
-
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
         let mut shape = vec![within("s", "", 0.0, 0.95)];
         if self.form == Form::Power {

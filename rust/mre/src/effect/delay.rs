@@ -68,12 +68,6 @@ impl Effect for TimeDelay {
         }
     }
 
-    fn checked_by(&self) -> Option<&'static str> {
-        Some(
-            "drive a steel spring in the place of the device: a delay of a channel is still there, and the same for a device of another stiffness",
-        )
-    }
-
     fn shape(&self, _: &Sizes) -> Vec<Parameter> {
         vec![within("d", "s", -0.05, 0.05)]
     }

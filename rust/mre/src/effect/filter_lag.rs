@@ -96,12 +96,6 @@ impl Effect for FilterLag {
         }
     }
 
-    fn checked_by(&self) -> Option<&'static str> {
-        Some(
-            "drive a steel spring in the place of the device: a filter of a channel is still there, and the same for a device of another stiffness",
-        )
-    }
-
     fn shape(&self, _: &Sizes) -> Vec<Parameter> {
         match self {
             Self::Force | Self::Displacement => vec![order_within("T", "s", 1e-4, 0.05)],

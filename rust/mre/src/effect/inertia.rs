@@ -31,12 +31,6 @@ impl Effect for Inertia {
         vec![positive("m", "kg")]
     }
 
-    fn checked_by(&self) -> Option<&'static str> {
-        Some(
-            "run the machine without the device: the force that is left, in proportion to the acceleration, is of masses that move",
-        )
-    }
-
     fn shape(&self, _: &Sizes) -> Vec<Parameter> {
         Vec::new()
     }

@@ -123,12 +123,6 @@ pub trait Effect: Send + Sync {
     /// nearly as visible at one of them as at its best.
     fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>>;
 
-    /// What tells the effect from others where no motion of the device does, as an imperative; `None`: nothing that is
-    /// simply done.
-    fn checked_by(&self) -> Option<&'static str> {
-        None
-    }
-
     /// The parameter without which the law is that of another effect: a coefficient at zero, or a shape at its lower
     /// bound.
     fn own(&self) -> Option<&'static str> {

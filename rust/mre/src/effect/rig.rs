@@ -64,12 +64,6 @@ impl Effect for Rig {
         }
     }
 
-    fn checked_by(&self) -> Option<&'static str> {
-        Some(
-            "measure the displacement between the plates of the device itself: a compliant fixture is then outside",
-        )
-    }
-
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
         let mut shape = vec![within("f_r", "mm/N", 0.0, 0.5 * sizes.displacement / sizes.force)];
         match self {

@@ -77,12 +77,6 @@ impl Effect for Thermal {
         }
     }
 
-    fn checked_by(&self) -> Option<&'static str> {
-        Some(
-            "measure the temperature, or repeat a recording after hours of rest: heat is gone then, wear is not",
-        )
-    }
-
     fn shape(&self, _: &Sizes) -> Vec<Parameter> {
         vec![within("s", "", 0.0, 3.0), ideal_above(order_within("tau", "s", COOLING.0, COOLING.1))]
     }

@@ -58,8 +58,7 @@ impl<'b, 'a> Bench<'b, 'a> {
         let held: Vec<Held> = models.par_iter().map(|model| Held::of(model, data)).collect();
         let places = doubt.places(named, &criteria(&models));
         let lacks = |model: usize| models[model].fitted.beyond_chance();
-        let free = |model: usize| models[model].fitted.parameters();
-        let in_doubt = places.iter().flatten().flat_map(|member| member.may_be_true(lacks, free));
+        let in_doubt = places.iter().flatten().flat_map(|member| member.may_be_true(lacks));
         let mut true_ones: Vec<(usize, f64)> = std::iter::once((0, 1.0)).chain(in_doubt).collect();
         true_ones.sort_by_key(|(model, _)| *model);
         true_ones.dedup_by_key(|(model, _)| *model);

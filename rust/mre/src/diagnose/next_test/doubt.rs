@@ -1,7 +1,5 @@
 //! What is in doubt, and the chance that evidence settles it.
 
-use std::collections::BTreeMap;
-
 use crate::diagnose::alternatives::APART;
 use crate::diagnose::candidates::Candidate;
 use crate::diagnose::distribution::normal_tail;
@@ -15,6 +13,8 @@ const SURER: f64 = 0.05;
 const MOST_ODDS: f64 = 50.0;
 /// A law with a smaller share of the likelihood is not imagined.
 const UNLIKELY: f64 = 0.1;
+/// Laws of an effect that are imagined at most beside the likeliest.
+const OTHER_LAWS: usize = 3;
 /// A rival with a smaller chance of being ruled out is expected to be left.
 const EVEN: f64 = 0.5;
 
@@ -47,25 +47,20 @@ pub(super) struct Member {
 }
 
 impl Member {
-    /// Its likeliest model, and of its other laws with each number of parameters the one that may best be true, each with
-    /// its share of the likelihood: what a parameter more costs where a law is to be named says little of which is true,
-    /// but that it fits better by chance (Akaike, IEEE Trans. Autom. Control 19 (1974) 716). `lacks` is that criterion,
-    /// `free` the number of parameters.
-    pub(super) fn may_be_true(
-        &self,
-        lacks: impl Fn(usize) -> f64,
-        free: impl Fn(usize) -> usize,
-    ) -> Vec<(usize, f64)> {
-        let mut best: BTreeMap<usize, usize> = BTreeMap::new();
-        for other in self.models.iter().copied().filter(|model| *model != self.likeliest) {
-            let known = best.entry(free(other)).or_insert(other);
-            if lacks(other) < lacks(*known) {
-                *known = other;
-            }
-        }
+    /// Its likeliest model, and those of its other laws that may best be true, each with its share of the likelihood: what
+    /// a parameter more costs where a law is to be named says little of which is true, but that it fits better by chance
+    /// (Akaike, IEEE Trans. Autom. Control 19 (1974) 716). `lacks` is that criterion.
+    pub(super) fn may_be_true(&self, lacks: impl Fn(usize) -> f64) -> Vec<(usize, f64)> {
         let share = |model: usize| (0.5 * (lacks(self.likeliest) - lacks(model))).exp().min(1.0);
-        let others = best.into_values().map(|model| (model, share(model)));
-        std::iter::once((self.likeliest, 1.0)).chain(others.filter(|(_, share)| *share > UNLIKELY)).collect()
+        let others = self.models.iter().copied().filter(|model| *model != self.likeliest);
+        let mut others: Vec<(usize, f64)> = others
+            .filter(|model| lacks(*model).is_finite())
+            .map(|model| (model, share(model)))
+            .filter(|(_, share)| *share > UNLIKELY)
+            .collect();
+        others.sort_by(|(a, _), (b, _)| lacks(*a).total_cmp(&lacks(*b)));
+        others.truncate(OTHER_LAWS);
+        std::iter::once((self.likeliest, 1.0)).chain(others).collect()
     }
 }
 
@@ -223,12 +218,11 @@ mod tests {
     #[test]
     fn another_law_may_be_true_as_far_as_it_fits() {
         let member = Member { effect: "thermal_softening", likeliest: 0, models: vec![0, 1, 2] };
-        let with = |lacks: [f64; 3], free: [usize; 3]| member.may_be_true(|m| lacks[m], |m| free[m]);
-        assert_eq!(with([10.0, 9.0, 12.0], [4; 3]), [(0, 1.0), (1, 1.0)]);
-        assert_eq!(with([10.0, 40.0, 30.0], [4; 3]), [(0, 1.0)]);
-        // One that cools is another matter than one that does not.
-        let all = with([10.0, 9.0, 12.0], [4, 4, 5]);
-        assert_eq!(all, [(0, 1.0), (1, 1.0), (2, (-1.0_f64).exp())]);
+        let with = |lacks: [f64; 3]| member.may_be_true(|model| lacks[model]);
+        assert_eq!(with([10.0, 12.0, 9.0]), [(0, 1.0), (2, 1.0), (1, (-1.0_f64).exp())]);
+        assert_eq!(with([10.0, 40.0, f64::INFINITY]), [(0, 1.0)]);
+        let many = Member { effect: "thermal_softening", likeliest: 0, models: (0..9).collect() };
+        assert_eq!(many.may_be_true(|_| 1.0).len(), 1 + OTHER_LAWS);
     }
 
     #[test]

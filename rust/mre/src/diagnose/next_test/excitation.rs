@@ -96,7 +96,7 @@ impl Kind {
             Self::FastSine => (sine(highest), highest),
             Self::Amplitudes => (amplitudes(&time, duration, middle, stroke), middle),
             Self::Rest => (rest(&sine(middle), &time, duration), middle),
-            Self::Sweep => (sweep(&time, duration, (slow, highest), largest), highest),
+            Self::Sweep => (sweep(&time, duration, (slow, highest), (stroke, speed)), highest),
             Self::Hold => (time.iter().map(|t| 0.8 * stroke * smooth((t - RAMP) / RAMP)).collect(), slow),
             Self::Multisine => (multisine(&time, slow, highest), highest),
             Self::CurrentSteps => (sine(middle), middle),
@@ -127,7 +127,8 @@ impl Kind {
     }
 }
 
-/// From zero to one with continuous slope and bend: where the bend jumps, models at the samples differ by their errors.
+/// From zero to one with continuous slope and bend: where the bend jumps, what models make of it between the samples
+/// differs.
 fn smooth(share: f64) -> f64 {
     let s = share.clamp(0.0, 1.0);
     s * s * s * (10.0 - 15.0 * s + 6.0 * s * s)
@@ -163,8 +164,11 @@ fn rest(motion: &[f64], time: &[f64], duration: f64) -> Vec<f64> {
     motion.iter().zip(time).map(|(x, t)| x * moving(*t)).collect()
 }
 
-fn sweep(time: &[f64], duration: f64, (low, high): (f64, f64), largest: impl Fn(f64) -> f64) -> Vec<f64> {
+fn sweep(time: &[f64], duration: f64, (low, high): (f64, f64), (stroke, speed): (f64, f64)) -> Vec<f64> {
     let growth = (high / low).max(1.0 + 1e-9).ln() / duration;
+    let corner = speed / (TAU * stroke);
+    // The smaller of what stroke and speed allow, without the corner between them.
+    let largest = |f: f64| stroke * (1.0 + (f / corner).powi(8)).powf(-0.125);
     time.iter()
         .map(|t| {
             let f = low * (growth * t).exp();
@@ -220,5 +224,26 @@ mod tests {
             assert_eq!(resting, kind == Kind::Rest, "{kind:?}");
         }
         assert!(Kind::CurrentSteps.signal(&Limits { current: None, ..limits }).is_none());
+    }
+
+    #[test]
+    fn no_acceleration_jumps() {
+        let at = |rate: f64| Limits {
+            stroke: 5.0,
+            speed: 40.0,
+            highest: 8.0,
+            duration: 20.0,
+            rate,
+            current: Some((0.0, 3.0)),
+        };
+        let turn = |signal: &Signal| {
+            let third = |w: &[f64]| (w[3] - 3.0 * w[2] + 3.0 * w[1] - w[0]).abs();
+            signal.displacement.windows(4).map(third).fold(0.0, f64::max)
+        };
+        for kind in KINDS {
+            let [coarse, fine] = [2000.0, 4000.0].map(|rate| turn(&kind.signal(&at(rate)).expect("room")));
+            // An eighth; of a jump of the acceleration a quarter.
+            assert!((7.0..9.0).contains(&(coarse / fine)), "{kind:?}: {coarse} {fine}");
+        }
     }
 }

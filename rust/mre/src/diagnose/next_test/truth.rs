@@ -1,6 +1,6 @@
 //! What may be true: models that are in doubt, and how far the recordings leave their shapes open.
 
-use nalgebra::{DMatrix, SymmetricEigen};
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use rayon::prelude::*;
 
 use super::view::Held;
@@ -60,9 +60,17 @@ pub(super) fn truths<'a>(
     all.into_iter().map(|truth| Truth { weight: share * truth.weight / whole, ..truth }).collect()
 }
 
-/// The direction of the effects' shapes along which the recordings say least, as long as one standard deviation, where
-/// the coefficients and the first shapes, those of the base, follow. `gram` is of the coefficients and then the shapes.
-fn least_held(gram: &DMatrix<f64>, base: usize, shapes: usize) -> Option<Vec<f64>> {
+/// Shapes that the recordings leave open.
+struct Open {
+    /// Direction of the effects' shapes along which the recordings say least, as long as one standard deviation.
+    along: DVector<f64>,
+    /// By how much the shapes of the base move with those of the effects.
+    follows: DMatrix<f64>,
+}
+
+/// What is open where the coefficients and the first shapes, those of the base, follow. `gram` is of the coefficients and
+/// then the shapes.
+fn least_held(gram: &DMatrix<f64>, base: usize, shapes: usize) -> Option<Open> {
     let (k, first) = (gram.nrows() - shapes, gram.nrows() - shapes + base);
     if shapes == base {
         return None;
@@ -86,17 +94,22 @@ fn least_held(gram: &DMatrix<f64>, base: usize, shapes: usize) -> Option<Vec<f64
     let SymmetricEigen { eigenvalues, eigenvectors } = alone.symmetric_eigen();
     let least = eigenvalues.imin();
     let deviation = eigenvalues[least].max(OPEN.powi(-2)).powf(-0.5);
-    let along = deviation * eigenvectors.column(least);
-    let followed = follows * &along;
-    let of_base = (k..first).map(|i| -followed[i] / scale[i]);
-    (deviation > HELD).then(|| of_base.chain(along.iter().copied()).collect())
+    let follows = DMatrix::from_fn(base, count, |i, j| -follows[(k + i, j)] / scale[k + i]);
+    (deviation > HELD).then(|| Open { along: deviation * eigenvectors.column(least), follows })
 }
 
-/// A model so far along a direction, with the best coefficients there, and how far its shapes have moved in the box.
-fn point<'a>(model: &Candidate<'a>, open: &[f64], far: f64, data: Data) -> (Candidate<'a>, f64) {
+/// A model so far along a direction, with the best coefficients there, and how far its effects' shapes have moved in the
+/// box.
+fn point<'a>(model: &Candidate<'a>, open: &Open, far: f64, data: Data) -> (Candidate<'a>, f64) {
     let known = &model.fitted.unit;
-    let unit: Vec<f64> = known.iter().zip(open).map(|(u, o)| (u + far * o).clamp(0.0, 1.0)).collect();
-    let moved = unit.iter().zip(known).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
+    let base = open.follows.nrows();
+    let step = DVector::from_fn(open.along.len(), |i, _| {
+        let from = known[base + i];
+        (from + far * open.along[i]).clamp(0.0, 1.0) - from
+    });
+    let steps = (&open.follows * &step).iter().chain(step.iter()).copied().collect::<Vec<f64>>();
+    let unit: Vec<f64> = known.iter().zip(steps).map(|(u, s)| (u + s).clamp(0.0, 1.0)).collect();
+    let moved = step.amax();
     let mut assembly = model.assembly.clone();
     let mut fitted = Point::at(&assembly, data, unit).fitted;
     if assembly.flexibility(&assembly.physical(&fitted.unit)).is_some() {
@@ -139,8 +152,9 @@ mod tests {
         let open = least_held(&gram, 1, 3).expect("a direction");
         // The base's own prior holds it a little.
         let left = 100.0 + 2.0 * OPEN.powi(-2);
-        assert!((open[1].abs() - left.powf(-0.5)).abs() < 1e-5, "{open:?}");
-        assert!((open[0] + open[1]).abs() < 1e-4 * open[1].abs() && open[2].abs() < 1e-9, "{open:?}");
+        let Open { along, follows } = open;
+        assert!((along[0].abs() - left.powf(-0.5)).abs() < 1e-5 && along[1].abs() < 1e-9, "{along}");
+        assert!((follows[0] + 1.0).abs() < 1e-4 && follows[1].abs() < 1e-9, "{follows}");
         // Every other truth of one that is held is the same truth.
         assert!(least_held(&DMatrix::from_diagonal_element(2, 2, 1e6), 0, 1).is_none());
         assert!(least_held(&gram.view((0, 0), (2, 2)).into_owned(), 1, 1).is_none());
