@@ -201,16 +201,13 @@ fn multisine(time: &[f64], slow: f64, highest: f64) -> Vec<f64> {
 mod tests {
     use super::*;
 
+    fn limits(rate: f64) -> Limits {
+        Limits { stroke: 5.0, speed: 40.0, highest: 8.0, duration: 20.0, rate, current: Some((0.0, 3.0)) }
+    }
+
     #[test]
     fn every_signal_keeps_its_limits_and_starts_at_rest() {
-        let limits = Limits {
-            stroke: 5.0,
-            speed: 40.0,
-            highest: 8.0,
-            duration: 20.0,
-            rate: 200.0,
-            current: Some((0.0, 3.0)),
-        };
+        let limits = limits(200.0);
         for kind in KINDS {
             let signal = kind.signal(&limits).expect("room");
             assert_eq!(signal.time.len(), 4000);
@@ -228,20 +225,13 @@ mod tests {
 
     #[test]
     fn no_acceleration_jumps() {
-        let at = |rate: f64| Limits {
-            stroke: 5.0,
-            speed: 40.0,
-            highest: 8.0,
-            duration: 20.0,
-            rate,
-            current: Some((0.0, 3.0)),
-        };
         let turn = |signal: &Signal| {
             let third = |w: &[f64]| (w[3] - 3.0 * w[2] + 3.0 * w[1] - w[0]).abs();
             signal.displacement.windows(4).map(third).fold(0.0, f64::max)
         };
         for kind in KINDS {
-            let [coarse, fine] = [2000.0, 4000.0].map(|rate| turn(&kind.signal(&at(rate)).expect("room")));
+            let [coarse, fine] =
+                [2000.0, 4000.0].map(|rate| turn(&kind.signal(&limits(rate)).expect("room")));
             // An eighth; of a jump of the acceleration a quarter.
             assert!((7.0..9.0).contains(&(coarse / fine)), "{kind:?}: {coarse} {fine}");
         }

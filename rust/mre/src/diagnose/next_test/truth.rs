@@ -127,28 +127,8 @@ mod tests {
     #[test]
     fn what_the_base_can_make_up_for_is_open_and_the_base_follows() {
         // A coefficient, a shape of the base, two of an effect: the first is held, but for what the base makes up for.
-        let gram = DMatrix::from_row_slice(
-            4,
-            4,
-            &[
-                4.0,
-                0.0,
-                0.0,
-                0.0, //
-                0.0,
-                1e6,
-                1e6,
-                0.0, //
-                0.0,
-                1e6,
-                1e6 + 100.0,
-                0.0, //
-                0.0,
-                0.0,
-                0.0,
-                1e4,
-            ],
-        );
+        let mut gram = DMatrix::from_diagonal(&DVector::from_vec(vec![4.0, 1e6, 1e6 + 100.0, 1e4]));
+        (gram[(1, 2)], gram[(2, 1)]) = (1e6, 1e6);
         let open = least_held(&gram, 1, 3).expect("a direction");
         // The base's own prior holds it a little.
         let left = 100.0 + 2.0 * OPEN.powi(-2);
