@@ -17,7 +17,7 @@ PATHS = {"stiffness": "path, stiffness", "spring": "path, spring", "whole": "pat
 
 
 def diagnosed(effects: list[str], base: str, seed: int, velocity: str = "given") -> Diagnosis:
-    made = make_campaign(effects, base=base, strength=2.0, seed=seed, velocity=velocity)
+    made = make_campaign(effects, base=base, strength=2.0, seed=seed, velocity=velocity, samples=4000)
     recordings = [
         Recording(r.time, r.displacement, r.force, velocity=r.velocity, name=r.name) for r in made.recordings
     ]

@@ -72,17 +72,17 @@ pub(super) fn integral(scene: &Scene, rate: impl Fn(usize) -> f64) -> Vec<f64> {
 /// Slope of a series on an even grid: by five points (Abramowitz and Stegun 25.3.6), by three or two near the ends.
 pub(crate) fn slope(time: &[f64], series: &[f64]) -> Vec<f64> {
     let last = series.len() - 1;
-    (0..=last)
-        .map(|i| {
-            let (a, b) = (i.saturating_sub(1), (i + 1).min(last));
-            let near = (series[b] - series[a]) / (time[b] - time[a]);
-            if i < 2 || i + 2 > last {
-                return near;
-            }
-            let wide = (series[i + 2] - series[i - 2]) / (time[i + 2] - time[i - 2]);
-            (4.0 * near - wide) / 3.0
-        })
-        .collect()
+    let mut found = vec![0.0; series.len()];
+    for ((found, y), t) in found.iter_mut().skip(1).zip(series.windows(3)).zip(time.windows(3)) {
+        *found = (y[2] - y[0]) / (t[2] - t[0]);
+    }
+    for ((found, y), t) in found.iter_mut().skip(2).zip(series.windows(5)).zip(time.windows(5)) {
+        *found = (4.0 * *found - (y[4] - y[0]) / (t[4] - t[0])) / 3.0;
+    }
+    for (i, a, b) in [(0, 0, last.min(1)), (last, last.saturating_sub(1), last)] {
+        found[i] = (series[b] - series[a]) / (time[b] - time[a]);
+    }
+    found
 }
 
 /// Every value of a series, changed.

@@ -94,13 +94,15 @@ fn simulate<const FUSED: bool, const N: usize>(lanes: &[Lane]) -> Vec<Vec<f64>> 
     let mut out: Vec<Vec<f64>> = lanes.iter().map(|lane| vec![0.0; lane.plan.len() + 1]).collect();
     let mut w = [0.0; N];
     for i in 0..longest {
-        // One that is done, or has nothing after its turn, stays where it is.
-        let after = |l: usize, k: usize| lanes.get(l).and_then(|lane| lane.after(i).get(k)).copied();
         for k in 0..lanes.iter().map(|lane| lane.after(i).len()).max().unwrap_or(0) {
-            let over: [Interval; N] = std::array::from_fn(|l| after(l, k).unwrap_or(Interval::REST));
+            // One that is done, or has nothing after its turn, stays where it is.
+            let mut over = [Interval::REST; N];
             let mut count = [1.0; N];
             let mut most: f64 = 1.0;
             for (l, lane) in lanes.iter().enumerate() {
+                if let Some(interval) = lane.after(i).get(k) {
+                    over[l] = *interval;
+                }
                 count[l] = (lane.stiffness * over[l].demand).ceil().max(1.0);
                 most = most.max(count[l]);
             }

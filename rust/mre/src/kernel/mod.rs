@@ -19,6 +19,7 @@ pub(crate) mod hysteretic;
 pub(crate) mod hysteretic_traces;
 pub(crate) mod intervals;
 mod lanes;
+pub(crate) mod recursion;
 pub(crate) mod relaxation;
 mod sinh;
 pub(crate) mod sinh_compressed;

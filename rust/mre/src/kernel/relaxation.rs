@@ -4,6 +4,7 @@ use nalgebra::ComplexField;
 
 use super::dispatch::{self, for_every_isa};
 use super::elementary::fma;
+use super::recursion::forward;
 use super::spline::second_differences;
 
 /// Lags computed side by side.
@@ -42,16 +43,16 @@ pub(crate) fn lags(time: &[f64], input: &[f64], of: &[Lag]) -> Vec<f64> {
 /// `y' = (u - y) / tau` from `start`.
 pub(crate) fn lag(time: &[f64], input: &[f64], tau: f64, start: f64) -> Vec<f64> {
     let bend = bends(time, input);
-    let mut y = start;
-    let mut out = Vec::with_capacity(input.len());
-    out.push(y);
+    let mut out = vec![start; input.len()];
     for (from, to) in runs(time) {
         let Step { decay, early, late, bent } = Step::over((time[from] - time[from - 1]) / tau);
-        for i in from..to {
-            let curved = bent[0] * bend[i - 1] + bent[1] * bend[i];
-            y = decay * y + (early * input[i - 1] + late * input[i] + curved + NOTHING);
-            out.push(y);
+        let before = out[from - 1];
+        let ends = input[from - 1..to].windows(2).zip(bend[from - 1..to].windows(2));
+        for (out, (u, bend)) in out[from..to].iter_mut().zip(ends) {
+            let curved = bent[0] * bend[0] + bent[1] * bend[1];
+            *out = early * u[0] + late * u[1] + curved + NOTHING;
         }
+        forward(decay, before, &mut out[from..to]);
     }
     out
 }

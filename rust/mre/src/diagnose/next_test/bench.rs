@@ -1,9 +1,12 @@
 //! Models that are in doubt, on an imagined test.
 
+use std::collections::BTreeMap;
+
 use rayon::prelude::*;
 
 use super::doubt::{Doubt, Member, Told, told};
-use super::excitation::{Kind, Signal};
+use super::excitation::Kind;
+use super::imagined::Imagined;
 use super::limits::Limits;
 use super::truth::{Truth, truths};
 use super::view::{Held, View};
@@ -17,10 +20,13 @@ use crate::diagnose::noise::Noise;
 use crate::diagnose::normal::Rows;
 use crate::diagnose::search::Named;
 
-/// Samples of the fastest cycle of a device that moves on between the samples of a recording.
-const FINE: f64 = 100.0;
-/// Most such samples for each of the recording.
-const FINEST: f64 = 8.0;
+/// Laws of an effect that are fitted to a test at most: those that lack least of it at a glance.
+const FITTED: usize = 3;
+
+/// What is true, and a model.
+type Job = (usize, usize);
+/// The criterion of each.
+type Criteria = BTreeMap<Job, f64>;
 
 /// The models, and what the recordings know of them.
 pub(super) struct Bench<'b, 'a> {
@@ -35,14 +41,6 @@ pub(super) struct Bench<'b, 'a> {
     /// What may be true, the model named at its best fit first.
     truths: Vec<Truth<'a>>,
     held: Vec<Held>,
-}
-
-/// A test as it is imagined: each model that may be true moves finely, and is seen at the samples of a recording.
-pub(super) struct Imagined {
-    signal: Signal,
-    velocity: Option<Vec<f64>>,
-    /// Force in N of each of [`Bench::truths`].
-    forces: Vec<Vec<f64>>,
 }
 
 impl<'b, 'a> Bench<'b, 'a> {
@@ -71,30 +69,35 @@ impl<'b, 'a> Bench<'b, 'a> {
 
     /// A test; `None` where the limits leave no room for it, or a model cannot follow it.
     pub(super) fn imagine(&self, kind: Kind, limits: &Limits) -> Option<Imagined> {
-        let times = (FINE * limits.highest / limits.rate).clamp(1.0, FINEST).ceil();
-        let fine = kind.signal(&Limits { rate: times * limits.rate, ..limits.clone() })?;
-        let known = self.models[0].assembly.campaign();
-        let world = World::new(known, self.base, &fine, None, None)?;
-        let every = |series: &[f64]| series.iter().step_by(times as usize).copied().collect::<Vec<f64>>();
-        let forces = self
-            .truths
-            .par_iter()
-            .map(|truth| world.simulated(&truth.candidate).map(|force| every(&force)))
-            .collect::<Option<Vec<Vec<f64>>>>()?;
-        // A velocity that was recorded will be again.
-        let derived = known.recordings()[0].velocity_window().is_some();
-        let velocity = (!derived).then(|| every(world.test().velocity()));
-        let signal = Signal {
-            time: every(&fine.time),
-            displacement: every(&fine.displacement),
-            current: fine.current.as_deref().map(every),
-            ..fine
-        };
-        self.monitor.whole(Imagined { signal, velocity, forces })
+        let imagined =
+            Imagined::new(kind, limits, self.models[0].assembly.campaign(), self.base, &self.truths)?;
+        self.monitor.whole(imagined)
     }
 
     /// What the test tells to first order: every model bends as far as the recordings let it.
     pub(super) fn glance(&self, test: &Imagined) -> Option<Told> {
+        let told = self.told(&self.at_a_glance(test)?);
+        self.monitor.whole(told)
+    }
+
+    /// What the test tells when the models that may best follow it are fitted to it and the recordings.
+    pub(super) fn look(&self, test: &Imagined) -> Option<Told> {
+        let glance = self.at_a_glance(test)?;
+        let few = |t: usize, models: &[usize]| {
+            let mut few = models.to_vec();
+            few.sort_by(|a, b| glance[&(t, *a)].total_cmp(&glance[&(t, *b)]));
+            few.truncate(FITTED);
+            few
+        };
+        let worlds: Vec<World> =
+            (0..self.truths.len()).map(|t| self.world(test, Some(test.force(t)))).collect::<Option<_>>()?;
+        let fitted = |(t, model): (usize, usize)| self.fitted(&worlds[t], model, &self.truths[t]);
+        let found = self.jobs(few).into_par_iter().map(|job| (job, fitted(job))).collect();
+        self.monitor.whole(self.told(&found))
+    }
+
+    /// Criteria to first order of models where truths show their forces.
+    fn at_a_glance(&self, test: &Imagined) -> Option<Criteria> {
         let world = self.world(test, None)?;
         let views: Vec<View> = self
             .models
@@ -104,47 +107,44 @@ impl<'b, 'a> Bench<'b, 'a> {
             .collect();
         let seen: Vec<Vec<f64>> =
             self.truths.par_iter().map(|truth| world.simulated(&truth.candidate)).collect::<Option<_>>()?;
-        let more = (self.known_samples() + test.signal.time.len()) as f64 / self.known_samples() as f64;
+        let more = (self.known_samples() + test.signal().time.len()) as f64 / self.known_samples() as f64;
         let criterion = |t: usize, model: usize| {
             let fitted = &self.models[model].fitted;
             let price = fitted.parameters() as f64 * more.ln();
             let truth = &self.truths[t];
             let lack = if truth.model == model {
                 // Between its samples it may move on.
-                truth.behind + views[model].lack(&test.forces[t], &seen[t], &self.noise)
+                truth.behind + views[model].lack(test.force(t), &seen[t], &self.noise)
             } else {
-                views[model].lack(&test.forces[t], &views[model].force, &self.noise)
+                views[model].lack(test.force(t), &views[model].force, &self.noise)
             };
             fitted.criterion() + price + lack
         };
-        self.monitor.whole(self.told(criterion))
+        let all = self.jobs(|_, models| models.to_vec());
+        Some(all.into_par_iter().map(|(t, model)| ((t, model), criterion(t, model))).collect())
     }
 
-    /// What the test tells when every model is fitted to it and the recordings.
-    pub(super) fn look(&self, test: &Imagined) -> Option<Told> {
-        let worlds: Vec<World> =
-            test.forces.iter().map(|force| self.world(test, Some(force))).collect::<Option<_>>()?;
-        self.monitor.whole(self.told(|t, model| self.fitted(&worlds[t], model, &self.truths[t])))
-    }
-
-    /// What is told, given the criterion of a model where one of the truths shows its force.
-    fn told(&self, criterion: impl Fn(usize, usize) -> f64 + Sync) -> Told {
+    /// Models to compare where a truth shows its force: itself, and of each effect that may stand in its place those
+    /// that are picked.
+    fn jobs(&self, pick: impl Fn(usize, &[usize]) -> Vec<usize>) -> Vec<Job> {
         let of = |(t, truth): (usize, &Truth)| {
-            let place = truth.model;
-            let beside =
-                self.places.iter().filter(move |members| members.iter().any(|m| m.models.contains(&place)));
-            let mut models: Vec<usize> = beside.flatten().flat_map(|m| m.models.iter().copied()).collect();
+            let places = self.places.iter();
+            let beside = places.filter(|members| members.iter().any(|m| m.models.contains(&truth.model)));
+            let picked = beside.flatten().flat_map(|m| pick(t, &m.models));
+            let mut models: Vec<usize> = std::iter::once(truth.model).chain(picked).collect();
             models.sort_unstable();
             models.dedup();
-            models.into_iter().map(move |model| (t, model))
+            models.into_iter().map(move |model| (t, model)).collect::<Vec<Job>>()
         };
-        let jobs: Vec<(usize, usize)> = self.truths.iter().enumerate().flat_map(of).collect();
-        let found: Vec<f64> = jobs.par_iter().map(|(t, model)| criterion(*t, *model)).collect();
-        let known = |job: (usize, usize)| jobs.iter().position(|j| *j == job).map(|place| found[place]);
+        self.truths.iter().enumerate().flat_map(of).collect()
+    }
+
+    /// What is told, given criteria; what has none is ruled out by what has.
+    fn told(&self, found: &Criteria) -> Told {
         let weights: Vec<(usize, f64)> = self.truths.iter().map(|t| (t.model, t.weight)).collect();
         told(&self.places, &criteria(&self.models), &weights, |t, other| {
-            let own = self.truths[t].model;
-            let difference = known((t, other)).zip(known((t, own))).map_or(0.0, |(o, own)| o - own);
+            let Some(other) = found.get(&(t, other)) else { return f64::INFINITY };
+            let difference = other - found[&(t, self.truths[t].model)];
             // Where neither can follow the test, it tells nothing.
             if difference.is_nan() { 0.0 } else { difference }
         })
@@ -162,7 +162,7 @@ impl<'b, 'a> Bench<'b, 'a> {
 
     /// The model named, and its force in N in a test.
     pub(super) fn named<'t>(&self, test: &'t Imagined) -> (&Candidate<'a>, &'t [f64]) {
-        (&self.models[0], &test.forces[0])
+        (&self.models[0], test.force(0))
     }
 
     /// Samples that count, those of a test among them.
@@ -177,7 +177,13 @@ impl<'b, 'a> Bench<'b, 'a> {
     /// The recordings with a test that shows a force in N.
     pub(super) fn world(&self, test: &Imagined, force: Option<&[f64]>) -> Option<World> {
         let known = self.models[0].assembly.campaign();
-        World::new(known, self.base, &test.signal, test.velocity.clone(), force.map(<[f64]>::to_vec))
+        World::new(
+            known,
+            self.base,
+            test.signal(),
+            test.velocity().map(<[f64]>::to_vec),
+            force.map(<[f64]>::to_vec),
+        )
     }
 
     fn known_samples(&self) -> usize {
@@ -188,10 +194,4 @@ impl<'b, 'a> Bench<'b, 'a> {
 /// Criteria of models on the recordings.
 fn criteria(models: &[Candidate]) -> Vec<f64> {
     models.iter().map(Candidate::criterion).collect()
-}
-
-impl Imagined {
-    pub(super) fn signal(&self) -> &Signal {
-        &self.signal
-    }
 }

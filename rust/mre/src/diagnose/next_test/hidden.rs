@@ -1,6 +1,7 @@
 //! Effects that the recordings hide: which of them a test would still hide.
 
-use super::bench::{Bench, Imagined};
+use super::bench::Bench;
+use super::imagined::Imagined;
 use crate::diagnose::absorbed::{hidden_among, ids_of};
 use crate::diagnose::least_squares::refine;
 use crate::diagnose::null::Null;

@@ -9,6 +9,7 @@ mod bench;
 mod doubt;
 mod excitation;
 mod hidden;
+mod imagined;
 mod limits;
 mod telling;
 mod truth;
