@@ -17,7 +17,7 @@ from mre_core.trial.outcomes import Scored
 
 EFFECTS, NULLS = 28, 12
 WEAKEST = 1.0
-SAMPLES = 8000
+SAMPLES = 5000
 
 
 def short_cases(seed: int) -> list[Case]:
