@@ -203,6 +203,7 @@ mod tests {
                 let v = |s: f64| sign * (s - root) * (1.0 - s / other);
                 let whole = Interval::new([v(0.0), v(0.5), v(1.0)], 2.0);
                 let (first, second) = whole.pieces();
+                assert!(second.is_some());
                 let second = second.unwrap_or(first);
                 assert!((first.step - 2.0 * root).abs() < 1e-12, "{} of {root}", first.step);
                 assert!((first.step + second.step - 2.0).abs() < 1e-15);
