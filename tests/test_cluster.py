@@ -95,7 +95,7 @@ def test_a_worker_is_killed(cluster: Workers, tmp_path: Path) -> None:
 
 
 def test_a_worker_is_killed_in_a_trial(cluster: Workers, tmp_path: Path) -> None:
-    case = Case(("inertia",), ("mass",), "kelvin_voigt", 3.0, "white", "given", "rich", None, 0.01, 0.0, 3)
+    case = Case(("inertia",), ("mass",), "kelvin_voigt", 3.0, "white", "given", "rich", 3000, 0.01, 0.0, 3)
     make_trial(tmp_path / "here", [replace(case, seed=i) for i in range(4)], seed=9, workers=2)
     shutil.copytree(tmp_path / "here", tmp_path / "there")
     assert run_trial(tmp_path / "here", workers=2) == 4

@@ -66,6 +66,11 @@ def dragging(r: Recording) -> NDArray[np.float64]:
     return np.asarray(sprung[0] - sprung[1])
 
 
+def rebound(r: Recording) -> NDArray[np.float64]:
+    """A valve that damps more one way, by 0.05 N s/mm."""
+    return np.asarray(0.05 * np.abs(r.velocity))
+
+
 @pytest.mark.parametrize(
     ("law", "name", "parameters"),
     [
@@ -75,6 +80,7 @@ def dragging(r: Recording) -> NDArray[np.float64]:
         (slider, ("coulomb_friction", "elastic slider"), {"F_c": 2, "z_y": 0.06}),
         (contact, ("end_stop", "both ends with damping"), {"k_c": 6, "c_c": 0.15, "g": 3}),
         (narrow, ("pinching", "edged, stiffness"), {"w": 0.7}),
+        (rebound, ("quadratic_damping", "by direction"), {"c_d": 0.05, "p": 1}),
         (wear, ("cyclic_degradation", "path, logarithmic, stiffness"), {"P_c": 2}),
     ],
 )

@@ -69,9 +69,8 @@ def test_a_viscosity_that_grows_with_the_displacement_gets_no_name(size: float) 
 )
 def test_a_damping_of_another_size_in_each_direction_is_no_drift(size: float, law: Law) -> None:
     found = diagnosed(size, law)
-    assert found.verdict == "unexplained", [e.id for e in found.effects]
-    assert found.unknown is not None
-    assert found.unknown["depends_on"][0]["on"] == "velocity"
+    assert [e.id for e in found.effects] == ["quadratic_damping"], found.verdict
+    assert found.verdict == "missing_physics"
 
 
 def test_noise_of_the_displacement_is_taken_off() -> None:

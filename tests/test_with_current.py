@@ -2,6 +2,7 @@
 
 import mre_core
 import numpy as np
+import pytest
 from mre_core import Level, Model, Recording, simulate
 from rig import made_of
 
@@ -64,6 +65,23 @@ def test_friction_that_follows_the_current() -> None:
     truth = simulate(base, seen) + 2.5 * friction(seen)
     error = float(np.std(simulate(found.model, seen) - truth))
     assert error < 0.01 * np.std(truth), error
+
+
+def test_a_springpot_that_follows_the_current() -> None:
+    """Its derivative by the sum of Gruenwald and Letnikov."""
+    order, recordings = 0.3, []
+    for seed, (current, size) in enumerate({0.0: 0.5, 0.5: 1.0, 1.0: 1.5}.items()):
+        base = made_of("kelvin_voigt", {"c0": 0.2 + 0.1 * current, "k0": 3.0 + current, "F0": 0.0})
+        moved = swept()
+        k = np.arange(1, len(moved))
+        weights = np.concatenate([[1.0], np.cumprod((k - 1 - order) / k)])
+        springpot = np.convolve(np.asarray(moved.displacement), weights)[: len(moved)] * 100.0**order
+        recordings.append(measured(simulate(base, moved) + size * springpot, moved, current, seed))
+    found = mre_core.diagnose(recordings, "kelvin_voigt", seed=1)
+    (effect,) = found.effects
+    assert (effect.id, effect.law) == ("fractional_viscoelasticity", "springpot, with the current")
+    values = {name: p.value for name, p in effect.parameters.items()}
+    assert values == pytest.approx({"c_a_low": 0.5, "c_a_high": 1.5, "a": order}, rel=0.1)
 
 
 def test_friction_of_one_size_keeps_the_plain_law() -> None:

@@ -50,6 +50,11 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     },
     &Fractional::Springpot,
     &Fractional::Maxwell,
+    &WithCurrent {
+        law: &Fractional::Springpot,
+        name: "springpot, with the current",
+        equation: "F_a = c_a(I) D^a x, c_a affine in I",
+    },
     &Coulomb::Dahl,
     &Coulomb::Slider,
     &Coulomb::Smoothed,
@@ -98,6 +103,8 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &QuadraticDamping::Square,
     &QuadraticDamping::Power,
     &QuadraticDamping::Eyring,
+    &QuadraticDamping::OneWay,
+    &QuadraticDamping::EachWay,
     &WithCurrent {
         law: &QuadraticDamping::Eyring,
         name: "Eyring, with the current",

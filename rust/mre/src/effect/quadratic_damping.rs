@@ -4,13 +4,15 @@
 //! |---|---|---|---|
 //! | `c_p`, p | coefficient and power | N (s/mm)^p, - | >= 0, 0.2 to 3 |
 //! | `c_2` | coefficient of the square | N s^2/mm^2 | >= 0 |
+//! | `c_d`, p | coefficient of what is more one way, and its power | N (s/mm)^p, - | any, 0.5 to 3 |
+//! | `c_p`, `c_n`, p | coefficients up and down, and their power | N (s/mm)^p, - | >= 0, 1.3 to 3 |
 //! | `F_e`, `v_e` | force and velocity of Eyring's flow | N, mm/s | >= 0, 3 % to 100 % of the largest speed |
 //!
 //! Reference: Crandall, J. Sound Vib. 11 (1970) 3 (damping laws); Eyring, J. Chem. Phys. 4 (1936) 283.
 //! Known limit: at one steady sine it cannot be told from friction or hysteresis.
 
 use super::operators::{each, sign};
-use super::{About, Effect, Scene, Sizes, ideal_above, order_within, positive, within};
+use super::{About, Effect, Scene, Sizes, ideal_above, order_within, positive, signed, within};
 use crate::parameter::Parameter;
 
 /// Form of the damping law.
@@ -22,6 +24,10 @@ pub(super) enum QuadraticDamping {
     Power,
     /// `asinh(v/v_e)`.
     Eyring,
+    /// `|v|^p`: more one way than the other, as bump and rebound of a shock absorber.
+    OneWay,
+    /// Any power above one, of another size each way.
+    EachWay,
 }
 
 impl Effect for QuadraticDamping {
@@ -43,6 +49,17 @@ impl Effect for QuadraticDamping {
                 reference: "Eyring 1936",
                 ..square
             },
+            Self::OneWay => About {
+                law: "by direction",
+                equation: "F_d = c_d |v|^p",
+                limit: "at one steady sine it cannot be told from an asymmetric stiffness",
+                ..square
+            },
+            Self::EachWay => About {
+                law: "power, by direction",
+                equation: "F_d = c_p v^p where v > 0, -c_n (-v)^p where v < 0",
+                ..square
+            },
         }
     }
 
@@ -51,6 +68,8 @@ impl Effect for QuadraticDamping {
             Self::Square => vec![positive("c_2", "N s^2/mm^2")],
             Self::Power => vec![positive("c_p", "N (s/mm)^p")],
             Self::Eyring => vec![positive("F_e", "N")],
+            Self::OneWay => vec![signed("c_d", "N (s/mm)^p")],
+            Self::EachWay => vec![positive("c_p", "N (s/mm)^p"), positive("c_n", "N (s/mm)^p")],
         }
     }
 
@@ -61,6 +80,8 @@ impl Effect for QuadraticDamping {
             Self::Eyring => {
                 vec![ideal_above(order_within("v_e", "mm/s", 0.03 * sizes.velocity, sizes.velocity))]
             }
+            Self::OneWay => vec![within("p", "", 0.5, 3.0)],
+            Self::EachWay => vec![within("p", "", 1.3, 3.0)],
         }
     }
 
@@ -69,14 +90,21 @@ impl Effect for QuadraticDamping {
             Self::Square => vec![Vec::new()],
             Self::Power => [0.3, 0.5, 0.7, 1.5, 2.0, 2.5, 3.0].iter().map(|p| vec![*p]).collect(),
             Self::Eyring => [0.05, 0.15, 0.5].iter().map(|share| vec![share * sizes.velocity]).collect(),
+            Self::OneWay => [0.6, 1.0, 2.0].iter().map(|p| vec![*p]).collect(),
+            Self::EachWay => [1.5, 2.0, 2.7].iter().map(|p| vec![*p]).collect(),
         }
     }
 
     fn columns(&self, scene: &Scene, shape: &[f64]) -> Vec<Vec<f64>> {
-        vec![each(scene.velocity, |v| match self {
-            Self::Square => v.abs() * v,
-            Self::Power => v.abs().powf(shape[0]) * sign(v),
-            Self::Eyring => (v / shape[0]).asinh(),
-        })]
+        let of = |force: &dyn Fn(f64) -> f64| each(scene.velocity, force);
+        match self {
+            Self::Square => vec![of(&|v| v.abs() * v)],
+            Self::Power => vec![of(&|v| v.abs().powf(shape[0]) * sign(v))],
+            Self::Eyring => vec![of(&|v| (v / shape[0]).asinh())],
+            Self::OneWay => vec![of(&|v| v.abs().powf(shape[0]))],
+            Self::EachWay => {
+                vec![of(&|v| v.max(0.0).powf(shape[0])), of(&|v| -(-v).max(0.0).powf(shape[0]))]
+            }
+        }
     }
 }
