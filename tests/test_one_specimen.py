@@ -96,6 +96,8 @@ def test_nothing_goes_on_where_nothing_is_missing() -> None:
         ("cyclic_degradation", "dissipated energy, saturating, stiffness", {"s": 0.4, "E_c": 800.0}),
         ("cyclic_degradation", "viscous heat, stiffness", {"s": 0.4}),
         ("mullins_softening", "Ogden-Roxburgh, stiffness", {"s": 0.4, "x_m": 2.0, "b": 0.1}),
+        ("creep", "ageing by a power, stiffness", {"p": 0.3, "t_0": 0.5}),
+        ("creep", "ageing to an end, stiffness", {"s": 0.4, "tau_a": 5.0}),
     ],
 )
 def test_a_recording_in_two_parts_is_the_whole(id: str, law: str, parameters: dict[str, float]) -> None:
@@ -127,7 +129,8 @@ def test_the_past_of_a_sine_is_its_closed_form() -> None:
     stored, heat = 4 * 4 * 0.5 * 25, 4 * 0.5 * (10 * np.pi) ** 2
     path, dissipated = 4 * 4 * 5, 0.4 * heat
     assert second.past is not None and third.past is not None
-    wanted = {"displacement": 5, "path": path, "strokes": stored, "stayed": dissipated, "heat": heat}
+    wanted = {"time": 4, "displacement": 5, "path": path, "strokes": stored, "heat": heat}
+    wanted["stayed"] = dissipated
     assert {name: second.past[name] for name in wanted} == pytest.approx(wanted, rel=3e-5)
     assert second.past["energy"] > second.past["dissipated"] >= second.past["stayed"]
     twice = {name: 2 * value for name, value in second.past.items()}

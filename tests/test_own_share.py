@@ -35,3 +35,12 @@ def test_heat_is_named_alone_whatever_it_takes_of_the_damping(over: float) -> No
     assert "thermal_softening" in {effect.id, *effect.indistinguishable_from}
     if over == 2.0:
         assert effect.parameters["r"].value == pytest.approx(over, rel=0.2)
+
+
+def test_heat_of_the_dashpot_alone_is_named() -> None:
+    found = mre_core.diagnose([heated(r, 0.0, 0.3) for r in campaign(0.0)], "sinh", seed=1)
+    assert found.verdict == "missing_physics"
+    (effect,) = found.effects
+    assert "thermal_softening" in {effect.id, *effect.indistinguishable_from}
+    assert effect.law.endswith(", damping")
+    assert effect.equation.startswith("c -> c")

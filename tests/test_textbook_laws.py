@@ -39,6 +39,12 @@ def wear(r: Recording) -> NDArray[np.float64]:
     return np.asarray(-0.05 * elastic * np.log1p(path / 2))
 
 
+def ageing(r: Recording) -> NDArray[np.float64]:
+    """Softening by a power of the time: by a third after 13 s."""
+    elastic = 8 * r.displacement + 10 * np.sinh(0.3 * r.displacement)
+    return np.asarray(elastic * ((1 + r.time / 2) ** -0.2 - 1))
+
+
 def bristles(r: Recording) -> NDArray[np.float64]:
     """LuGre friction of 2 to 4 N, of bristles of 20 N/mm, in steps of a fortieth of a sample."""
     fine = 40
@@ -81,6 +87,7 @@ def rebound(r: Recording) -> NDArray[np.float64]:
         (contact, ("end_stop", "both ends with damping"), {"k_c": 6, "c_c": 0.15, "g": 3}),
         (narrow, ("pinching", "edged, stiffness"), {"w": 0.7}),
         (rebound, ("quadratic_damping", "by direction"), {"c_d": 0.05, "p": 1}),
+        (ageing, ("creep", "ageing by a power, stiffness"), {"p": 0.2}),
         (wear, ("cyclic_degradation", "path, logarithmic, stiffness"), {"P_c": 2}),
     ],
 )

@@ -159,10 +159,10 @@ def hidden(detail: Mapping[str, Any], limit: str) -> str:
 
 
 PLAINLY_UNEVEN = 1e-3
+"""Chance below which the size of a residual is said to follow the motion."""
 WHERE_UNEVEN = "at some displacements, speeds or times than at others"
 LEAST_APART = 0.01
 """Ratios of forces that differ by less are not told."""
-"""Chance below which the size of a residual is said to follow the motion."""
 
 _ON = {
     "displacement": "the displacement",
@@ -177,6 +177,7 @@ _ON = {
     "path": "the path travelled so far",
     "dissipated_power": "the power dissipated lately",
     "time": "the time in the recording",
+    "oscillation": "a stiffness or strength that oscillates at {:.3g} Hz",
     "current": "the coil current",
     "recording": "something that differs from recording to recording",
 }

@@ -48,15 +48,17 @@ pub(crate) struct Recording {
 /// What a specimen has been through, by name.
 type Through = BTreeMap<String, f64>;
 
-fn through(past: Past) -> [(&'static str, f64); 7] {
+/// Its fields by name.
+fn fields(past: &mut Past) -> [(&'static str, &mut f64); 8] {
     [
-        ("displacement", past.displacement),
-        ("path", past.path),
-        ("strokes", past.strokes),
-        ("energy", past.energy),
-        ("stayed", past.stayed),
-        ("dissipated", past.dissipated),
-        ("heat", past.heat),
+        ("time", &mut past.time),
+        ("displacement", &mut past.displacement),
+        ("path", &mut past.path),
+        ("strokes", &mut past.strokes),
+        ("energy", &mut past.energy),
+        ("stayed", &mut past.stayed),
+        ("dissipated", &mut past.dissipated),
+        ("heat", &mut past.heat),
     ]
 }
 
@@ -220,7 +222,8 @@ impl Recording {
 
     #[getter]
     fn past(&self) -> Option<Through> {
-        self.inner.past().map(|past| through(past).map(|(name, value)| (name.to_owned(), value)).into())
+        let mut past = self.inner.past()?;
+        Some(fields(&mut past).map(|(name, value)| (name.to_owned(), *value)).into())
     }
 
     fn __repr__(&self) -> String {
@@ -245,17 +248,12 @@ impl Recording {
         past: Option<Through>,
     ) -> PyResult<Self> {
         let plain = columns.py().get_type::<Self>().call(columns, Some(keywords))?.extract::<Self>()?;
-        let past = past.map(|past| {
-            let of = |name: &str| past.get(name).copied().unwrap_or_default();
-            Past {
-                displacement: of("displacement"),
-                path: of("path"),
-                strokes: of("strokes"),
-                energy: of("energy"),
-                stayed: of("stayed"),
-                dissipated: of("dissipated"),
-                heat: of("heat"),
+        let past = past.map(|through| {
+            let mut past = Past::default();
+            for (name, value) in fields(&mut past) {
+                *value = through.get(name).copied().unwrap_or_default();
             }
+            past
         });
         wrap(plain.inner.with_past(past).restored(window, scored.0..scored.1))
     }

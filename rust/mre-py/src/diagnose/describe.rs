@@ -95,6 +95,7 @@ fn unknown(u: &Unknown) -> Value {
                 On::Path => ("path", None),
                 On::Heat => ("dissipated_power", None),
                 On::Time => ("time", None),
+                On::Oscillation(frequency) => ("oscillation", Some(frequency)),
                 On::Current => ("current", None),
                 On::Recording => ("recording", None),
             };

@@ -1,9 +1,11 @@
-//! An assembly with one more recording, of which nothing is known yet.
+//! Assemblies with one more recording, of which nothing is known yet.
 
 use std::sync::Arc;
 
 use super::base::Base;
+use super::base_columns::BaseColumns;
 use super::campaign::Campaign;
+use super::columns::Columns;
 use super::in_series::InSeries;
 use super::layout::Assembly;
 use super::simulate::{PASSES, distance};
@@ -11,35 +13,94 @@ use super::simulate::{PASSES, distance};
 /// Share of a force, rms, by which two that agree differ.
 const AGREED: f64 = 1e-6;
 
-impl Assembly<'_> {
-    /// The same on a campaign with one recording more at its end, at these parameters, and the base on it; what effects
-    /// see of the others stays.
-    pub(crate) fn with_another<'w>(
-        &self,
+/// A model on a campaign with one recording more at its end.
+pub(crate) struct OnAnother<'w> {
+    pub(crate) assembly: Assembly<'w>,
+    /// Shapes in their units.
+    shapes: Vec<f64>,
+    /// Columns of the base there, as it is alone.
+    base: BaseColumns,
+}
+
+impl<'w> OnAnother<'w> {
+    /// Models at shapes of the unit box and coefficients, with the base on the wider campaign; what their effects see of
+    /// the other recordings stays. Bases are made side by side, which is cheaper than one by one.
+    pub(crate) fn all(
+        models: &[(&Assembly, &[f64], &[f64])],
         (campaign, base): (&'w Campaign, &'w Base),
-        unit: &[f64],
-        coefficients: &[f64],
-    ) -> Assembly<'w> {
+    ) -> Vec<Self> {
         let last = campaign.recordings().len() - 1;
-        let nothing = vec![0.0; campaign.recordings()[last].len()];
-        let (mut reference, mut whole) = ((*self.reference).clone(), (*self.whole).clone());
-        reference.push(nothing.clone());
-        whole.push(nothing);
-        let mut wider = Assembly::new(campaign, base, self.effects.clone(), Arc::new(reference));
-        let alone = wider.base_force_in(last, unit, coefficients);
-        let flexibility = wider.flexibility(&wider.physical(unit));
-        whole[last] = InSeries::first(&campaign.recordings()[last], &alone, flexibility.unwrap_or_default());
-        // Nothing else holds them yet.
-        Arc::make_mut(&mut wider.reference)[last] = alone;
-        wider.whole = Arc::new(whole);
+        let wider: Vec<Assembly<'w>> = models.iter().map(|(of, ..)| of.wider(campaign, base)).collect();
+        let shapes: Vec<Vec<f64>> =
+            wider.iter().zip(models).map(|(wider, (_, unit, _))| wider.physical(unit)).collect();
+        let Some(plain) = wider.first().map(|wider| wider.with(Vec::new())) else { return Vec::new() };
+        let jobs: Vec<(usize, &[f64])> =
+            shapes.iter().map(|shapes| (last, &shapes[..plain.base_shapes()])).collect();
+        let bases = plain.base_seen(&jobs);
+        let all = wider.into_iter().zip(shapes).zip(bases).zip(models);
+        all.map(|(((wider, shapes), base), (.., coefficients))| {
+            let alone = if let Base::Held(kept) = plain.base() {
+                kept.alone(&campaign.recordings()[last])
+            } else {
+                let columns = plain.with_effects(last, &shapes[..plain.base_shapes()], base.clone());
+                columns.force(&coefficients[..plain.base_coefficients()])
+            };
+            let mut model = Self { assembly: wider, shapes, base };
+            model.see(alone, coefficients);
+            model
+        })
+        .collect()
+    }
+
+    /// Force in N that is measured in the last recording.
+    pub(crate) fn measured(&self, coefficients: &[f64]) -> Vec<f64> {
+        let mut columns = self.columns();
+        self.assembly.measure(self.last(), &self.shapes, &mut columns);
+        columns.measured(coefficients)
+    }
+
+    /// Let effects see the force of the base alone in the last recording, and that of the device that follows.
+    fn see(&mut self, alone: Vec<f64>, coefficients: &[f64]) {
+        let last = self.last();
+        let flexibility = self.assembly.flexibility(&self.shapes);
+        let recording = &self.assembly.campaign().recordings()[last];
+        let whole = InSeries::first(recording, &alone, flexibility.unwrap_or_default());
+        Arc::make_mut(&mut self.assembly.whole)[last] = whole;
+        Arc::make_mut(&mut self.assembly.reference)[last] = alone;
+        let device = self.assembly.device_coefficients();
+        let own: Vec<f64> = coefficients.iter().zip(device).map(|(c, d)| if d { *c } else { 0.0 }).collect();
         for _ in 0..PASSES {
-            let force = wider.force_seen(last, unit, coefficients);
-            let off = distance(&wider.whole[last], &force);
-            Arc::make_mut(&mut wider.whole)[last] = force;
+            let force = self.columns().force(&own);
+            let off = distance(&self.assembly.whole[last], &force);
+            Arc::make_mut(&mut self.assembly.whole)[last] = force;
             if flexibility.is_none() || off <= AGREED {
                 break;
             }
         }
-        wider
+    }
+
+    /// Columns of the device in the last recording.
+    fn columns(&self) -> Columns {
+        let (assembly, last) = (&self.assembly, self.last());
+        let base = if assembly.sees_otherwise(&self.shapes) || assembly.asks_between() {
+            assembly.base_seen(&[(last, &self.shapes)]).pop().unwrap_or_default()
+        } else {
+            self.base.clone()
+        };
+        assembly.with_effects(last, &self.shapes, base)
+    }
+
+    fn last(&self) -> usize {
+        self.assembly.campaign().recordings().len() - 1
+    }
+}
+
+impl Assembly<'_> {
+    /// The same on a campaign with one recording more, in which nothing has a force.
+    fn wider<'w>(&self, campaign: &'w Campaign, base: &'w Base) -> Assembly<'w> {
+        let nothing = campaign.recordings().last().map_or(Vec::new(), |last| vec![0.0; last.len()]);
+        let with = |known: &[Vec<f64>]| Arc::new(known.iter().cloned().chain([nothing.clone()]).collect());
+        let wider = Assembly::new(campaign, base, self.effects.clone(), with(&self.reference));
+        Assembly { whole: with(&self.whole), ..wider }
     }
 }

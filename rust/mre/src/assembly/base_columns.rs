@@ -117,7 +117,7 @@ impl Assembly<'_> {
         halves.unwrap_or(&self.campaign.recordings()[r])
     }
 
-    fn asks_between(&self) -> bool {
+    pub(super) fn asks_between(&self) -> bool {
         // The cheapest question first: this one is asked for every set of columns.
         self.effects.iter().any(|effect| effect.between_samples())
             && matches!(self.base, Base::Fitted(_))

@@ -106,7 +106,7 @@ impl Assembly<'_> {
     }
 
     /// Columns of a device from those of its base.
-    fn with_effects(&self, r: usize, shapes: &[f64], base: BaseColumns) -> Columns {
+    pub(super) fn with_effects(&self, r: usize, shapes: &[f64], base: BaseColumns) -> Columns {
         let shape_of = self.shape_of(shapes);
         let scene = self.scene(r);
         let mut found = Columns { columns: base.columns, places: base.places, given: None, clip: None };

@@ -15,6 +15,7 @@ mod motion;
 mod shaken;
 mod simulate;
 
+pub(crate) use another::OnAnother;
 pub use base::Base;
 pub use campaign::Campaign;
 pub use columns::Columns;

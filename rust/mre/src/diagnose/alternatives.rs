@@ -1,5 +1,7 @@
 //! A or B: effects that the recordings cannot tell from one that was named.
 
+use std::collections::BTreeMap;
+
 use rayon::prelude::*;
 
 use super::candidates::{Candidate, candidates, scores};
@@ -17,6 +19,9 @@ pub(super) const APART: f64 = 10.0;
 
 /// Effects that are listed beside the one named at most, where its law is not exact.
 const MOST: usize = 2;
+
+/// Laws of an effect that a further test is imagined with at most: those that fit best.
+const LAWS: usize = 10;
 
 /// What may stand in the place of an effect that was named.
 pub(super) struct Alternatives<'a> {
@@ -91,6 +96,13 @@ pub(super) fn rivals<'a>(
             .collect();
         found.extend(others.into_iter().filter_map(other));
     }
+    found.sort_by(|a, b| a.model.criterion().total_cmp(&b.model.criterion()));
+    let mut laws: BTreeMap<&str, usize> = BTreeMap::new();
+    found.retain(|rival| {
+        let count = laws.entry(rival.effect).or_default();
+        *count += 1;
+        *count <= LAWS
+    });
     let (rivals, laws) = found.into_iter().partition(|rival| rival.effect != known.effect);
     Alternatives { effects, rivals, laws }
 }

@@ -32,6 +32,8 @@ pub enum On {
     Heat,
     /// Time.
     Time,
+    /// A wave in time of this frequency, Hz.
+    Oscillation(f64),
     /// Coil current.
     Current,
     /// Something that differs from recording to recording.

@@ -101,6 +101,7 @@ fn alone<'a>(
     let wandering = last.as_ref().map_or(Mismatch::NONE, Null::wandering);
     let odd = last.as_ref().map_or(Mismatch::NONE, Null::odd_recording);
     let uneven = last.as_ref().and_then(Null::uneven).unwrap_or(Uneven::NONE);
+    let oscillating = last.as_ref().and_then(Null::oscillating).map_or(Mismatch::NONE, |o| o.mismatch);
     let linked = last.as_ref().map_or(1.0, Null::linked);
     let own = begun.assembly.effects().len()..named.assembly.effects().len();
     let against = match any_strained(&named, data, own) {
@@ -114,6 +115,7 @@ fn alone<'a>(
         smooth: of_rest.p_value,
         wandering,
         odd,
+        oscillating,
         uneven,
         linked,
         explained,

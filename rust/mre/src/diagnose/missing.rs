@@ -14,14 +14,14 @@ use crate::effect::Scene;
 /// Share of a feature's square that the projection has to leave.
 const SMALLEST_SHARE: f64 = 1e-7;
 /// Most recordings that are compared one by one.
-const MOST_RECORDINGS: usize = 24;
+pub(super) const MOST_RECORDINGS: usize = 24;
 
 /// Stretches of time over which a stiffness may come and go.
 const STRETCHES: usize = 6;
 /// The same where it does so in each recording on its own.
 const OWN_STRETCHES: usize = 8;
 /// So many columns of their own find more in a noise that was estimated: their gain counts this much less.
-const MORE_CAUTION: f64 = 1.25;
+pub(super) const MORE_CAUTION: f64 = 1.25;
 
 /// A stiffness that comes and goes: at the end of every stretch but the last.
 fn passing(scene: &Scene) -> impl Iterator<Item = Vec<f64>> {
@@ -50,7 +50,7 @@ impl Mismatch {
     /// No test could be made.
     pub(super) const NONE: Self = Self { p_value: 1.0, gain: 0.0, freedom: 0 };
 
-    fn new(gain: f64, freedom: usize) -> Self {
+    pub(super) fn new(gain: f64, freedom: usize) -> Self {
         let p_value = if freedom == 0 { 1.0 } else { chi_square_tail(gain, freedom) };
         Self { p_value, gain, freedom }
     }

@@ -45,6 +45,7 @@ mod next_test;
 mod noise;
 mod normal;
 mod null;
+mod oscillating;
 mod plain_mismatch;
 mod point;
 mod projection;

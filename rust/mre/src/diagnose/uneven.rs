@@ -93,7 +93,7 @@ impl Null<'_> {
     }
 
     /// True where what is left is noise that nothing hides, of all samples.
-    fn knows_its_noise(&self) -> bool {
+    pub(super) fn knows_its_noise(&self) -> bool {
         !self.noise().hidden() && !self.assembly().clips(&self.shapes())
     }
 

@@ -5,6 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::features::On;
 use super::null::Null;
 use super::projection::Projection;
+use super::verdict::BEYOND_CHANCE;
 use crate::effect::Scene;
 
 /// Stretches of the displacement in the map.
@@ -65,6 +66,10 @@ pub(super) fn describe(null: &Null) -> Unknown {
         .into_iter()
         .map(|on| Dependence { on, share: (generic.of(|other| other == on).excess() / all).min(1.0) })
         .collect();
+    if let Some(found) = null.oscillating().filter(|found| found.mismatch.p_value < BEYOND_CHANCE) {
+        let share = (found.mismatch.excess() / all).min(1.0);
+        depends_on.push(Dependence { on: On::Oscillation(found.frequency), share });
+    }
     depends_on.sort_by(|a, b| b.share.total_cmp(&a.share));
     let strongest = depends_on.first().map_or(0.0, |d| d.share);
     depends_on.retain(|d| d.share > 0.0 && d.share >= WORTH_NAMING * strongest);

@@ -165,6 +165,26 @@ pub const CATALOGUE: &[&dyn Effect] = &[
         "dissipated power, no cooling, hysteretic force",
         "k_w -> k_w (1 - s T/T_max), T the largest integral of F v so far",
     ),
+    &OnPart::dashpot(
+        &Thermal { by: Work::Passed, exponential: false, whole: false },
+        "linear, damping",
+        "c -> c (1 - s T/T_r), dT/dt = |F v| - T/tau",
+    ),
+    &OnPart::dashpot(
+        &Thermal { by: Work::Passed, exponential: true, whole: false },
+        "exponential, damping",
+        "c -> c exp(-s T/T_r), dT/dt = |F v| - T/tau",
+    ),
+    &OnPart::dashpot(
+        &Thermal { by: Work::Viscous, exponential: false, whole: false },
+        "viscous heat, damping",
+        "c -> c (1 - s T/T_r), dT/dt = v^2 - T/tau",
+    ),
+    &OnPart::dashpot(
+        &Adiabatic { by: Work::Net, whole: false },
+        "dissipated power, no cooling, damping",
+        "c -> c (1 - s T/T_max), T the largest integral of F v so far",
+    ),
     &OwnShare {
         law: &Thermal { by: Work::Passed, exponential: false, whole: false },
         name: "damping by a share of its own",
@@ -260,6 +280,21 @@ pub const CATALOGUE: &[&dyn Effect] = &[
         &Degradation { by: Progress::Energy(Work::Net), form: Form::Saturating, whole: false },
         "dissipated energy, saturating, hysteretic force",
         "k_w -> k_w (1 - s (1 - exp(-E/E_c))), E the largest integral of F v so far",
+    ),
+    &OnPart::dashpot(
+        &Degradation { by: Progress::Path, form: Form::Steady, whole: false },
+        "path, damping",
+        "c -> c (1 - s P/P_max), P the path travelled",
+    ),
+    &OnPart::dashpot(
+        &Degradation { by: Progress::Path, form: Form::Saturating, whole: false },
+        "path, saturating, damping",
+        "c -> c (1 - s (1 - exp(-P/P_c))), P the path travelled",
+    ),
+    &OnPart::dashpot(
+        &Degradation { by: Progress::Energy(Work::Net), form: Form::Steady, whole: false },
+        "dissipated energy, damping",
+        "c -> c (1 - s E/E_max), E the largest integral of F v so far",
     ),
     &OwnShare {
         law: &Degradation { by: Progress::Path, form: Form::Steady, whole: false },
@@ -361,7 +396,11 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &Creep::Slow,
     &Creep::Ageing,
     &Creep::AgeingWhole,
+    &Creep::AgeingPower,
+    &Creep::AgeingToAnEnd,
     &OnPart::springs(&Creep::Ageing, "ageing, spring"),
+    &OnPart::springs(&Creep::AgeingPower, "ageing by a power, spring"),
+    &OnPart::springs(&Creep::AgeingToAnEnd, "ageing to an end, spring"),
     &FieldLag::One,
     &FieldLag::Twice,
     &FieldLag::Ringing,

@@ -5,18 +5,23 @@
 //! | `k_c` | stiffness that relaxes, a decade or in all | N/mm | >= 0 |
 //! | `t_0` | time after which it begins | s | two samples to the longest recording |
 //! | `tau_c` | relaxation time | s | 1/3 to 30 times the longest recording |
-//! | s | share of the stiffness lost a decade | - | 0 to 0.4 |
+//! | s | share of the stiffness lost a decade, or (saturating) in the end | - | 0 to 0.4, or 0.95 |
+//! | p | power | - | 0 to 1 |
+//! | `tau_a` | time after which 63 % of it is lost | s | 1 % to three times the life of a specimen |
 //!
 //! The logarithmic kernel falls with `log10(1 + t/t_0)`: a spectrum of relaxation times that is flat above `t_0` and fades
 //! below it as `exp(-t_0/tau)`, here up to a hundred times the longest recording: the same for all, so that none is
 //! stiffer.
+//! What ages goes on ageing from one recording of a specimen to the next, without the rests between them.
 //! Its spectrum may also begin at once (a box spectrum).
 //! Reference: Findley, Lai and Onaran, Creep and Relaxation of Nonlinear Viscoelastic Materials, 1976; Fung,
 //! Biomechanics: Mechanical Properties of Living Tissues, 1981.
 //! Known limit: with a mean displacement and in one recording it cannot be told from drift.
 
 use super::maxwell::{branch, branches};
-use super::{About, Effect, Factors, Scene, Sizes, ideal_below, order_within, orders, positive, within};
+use super::{
+    About, Effect, Factors, Scene, Sizes, ideal_above, ideal_below, order_within, orders, positive, within,
+};
 use crate::parameter::Parameter;
 
 /// Relaxation times a decade in the spectrum.
@@ -35,6 +40,10 @@ pub(super) enum Creep {
     Ageing,
     /// The whole force falls so.
     AgeingWhole,
+    /// The stiffness falls with a power of the time since the start.
+    AgeingPower,
+    /// The stiffness falls exponentially to an end.
+    AgeingToAnEnd,
 }
 
 /// The shortest relaxation time in shares of `t_0`: less than 1 % of the spectrum is left there.
@@ -53,8 +62,9 @@ fn fading(scene: &Scene, shortest: f64, spectrum: impl Fn(f64) -> f64) -> Vec<f6
 }
 
 impl Creep {
+    /// True where the device ages as a whole, and no memory fades.
     fn ages(self) -> bool {
-        matches!(self, Self::Ageing | Self::AgeingWhole)
+        !matches!(self, Self::Logarithmic | Self::Box | Self::Slow)
     }
 }
 
@@ -94,6 +104,18 @@ impl Effect for Creep {
                 reference: "Struik, Physical Aging in Amorphous Polymers and Other Materials, 1978",
                 ..logarithmic
             },
+            Self::AgeingPower => About {
+                law: "ageing by a power, stiffness",
+                equation: "k -> k (1 + t/t_0)^(-p)",
+                reference: "Struik, Physical Aging in Amorphous Polymers and Other Materials, 1978",
+                ..logarithmic
+            },
+            Self::AgeingToAnEnd => About {
+                law: "ageing to an end, stiffness",
+                equation: "k -> k (1 - s (1 - exp(-t/tau_a)))",
+                reference: "Findley, Lai and Onaran 1976",
+                ..logarithmic
+            },
         }
     }
 
@@ -103,12 +125,18 @@ impl Effect for Creep {
 
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
         let t_0 = ideal_below(order_within("t_0", "s", 2.0 * sizes.step, sizes.duration));
+        let life = sizes.life * sizes.duration;
         match self {
             Self::Logarithmic | Self::Box => vec![t_0],
             Self::Slow => {
                 vec![order_within("tau_c", "s", sizes.duration / 3.0, 30.0 * sizes.duration)]
             }
             Self::Ageing | Self::AgeingWhole => vec![within("s", "", 0.0, 0.4), t_0],
+            Self::AgeingPower => vec![within("p", "", 0.0, 1.0), t_0],
+            Self::AgeingToAnEnd => {
+                let tau = order_within("tau_a", "s", 0.01 * life, 3.0 * life);
+                vec![within("s", "", 0.0, 0.95), ideal_above(tau)]
+            }
         }
     }
 
@@ -118,7 +146,12 @@ impl Effect for Creep {
         match self {
             Self::Logarithmic | Self::Box => t_0.into_iter().map(|t| vec![t]).collect(),
             Self::Slow => vec![vec![0.5 * sizes.duration], vec![2.0 * sizes.duration]],
-            Self::Ageing | Self::AgeingWhole => t_0.into_iter().map(|t| vec![0.05, t]).collect(),
+            Self::Ageing | Self::AgeingWhole | Self::AgeingPower => {
+                t_0.into_iter().map(|t| vec![0.05, t]).collect()
+            }
+            Self::AgeingToAnEnd => {
+                [0.05, 0.2, 0.8].map(|share| vec![0.2, share * sizes.life * sizes.duration]).to_vec()
+            }
         }
     }
 
@@ -129,15 +162,25 @@ impl Effect for Creep {
             }
             Self::Box => vec![fading(scene, shape[0], |_| 1.0)],
             Self::Slow => vec![branch(scene, shape[0])],
-            Self::Ageing | Self::AgeingWhole => Vec::new(),
+            _ => Vec::new(),
         }
     }
 
     fn factors(&self, scene: &Scene, shape: &[f64]) -> Option<Factors> {
-        self.ages().then(|| {
-            let decades = |t: &f64| (1.0 + (t - scene.time[0]) / shape[1]).log10();
-            let lost: Vec<f64> = scene.time.iter().map(decades).collect();
-            Factors::losing(shape[0], &lost, *self == Self::AgeingWhole)
+        let since = |over: f64| scene.time.iter().map(move |t| (scene.past.time + t - scene.time[0]) / over);
+        Some(match self {
+            Self::Ageing | Self::AgeingWhole => {
+                let decades: Vec<f64> = since(shape[1]).map(|t| (1.0 + t).log10()).collect();
+                Factors::losing(shape[0], &decades, *self == Self::AgeingWhole)
+            }
+            Self::AgeingPower => {
+                Factors::kept(since(shape[1]).map(|t| (1.0 + t).powf(-shape[0])).collect(), false)
+            }
+            Self::AgeingToAnEnd => {
+                let lost: Vec<f64> = since(shape[1]).map(|t| -(-t).exp_m1()).collect();
+                Factors::losing(shape[0], &lost, false)
+            }
+            Self::Logarithmic | Self::Box | Self::Slow => return None,
         })
     }
 }

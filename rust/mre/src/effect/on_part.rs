@@ -1,5 +1,6 @@
-//! A softening law of another file that acts on a part of a hysteretic base model alone: on its springs, or on its
-//! hysteretic force (a lead core that warms up, cracks that close), which is another mechanism.
+//! A softening law of another file that acts on a part of the base model alone, which is another mechanism: on its
+//! dashpot (oil that warms up), or, of a hysteretic model, on its springs or its hysteretic force (a lead core that
+//! warms up, cracks that close).
 //!
 //! Reference: that of the plain law.
 //! Known limit: where the other part is small it is the plain law.
@@ -7,12 +8,20 @@
 use super::{About, Effect, Factors, Scene, Sizes, Stored};
 use crate::parameter::Parameter;
 
-/// A law that scales the stiffness, on a part of it.
+/// What a law acts on.
+enum Where {
+    /// A part of what stores energy.
+    Store(Stored),
+    /// The dashpot.
+    Dashpot,
+}
+
+/// A law that scales the stiffness, on a part of the base model.
 pub(super) struct OnPart {
     /// The plain law.
     law: &'static dyn Effect,
     /// The part.
-    on: Stored,
+    on: Where,
     /// Name among the laws of the effect.
     name: &'static str,
     /// Its equation, where that of the plain law names another part.
@@ -22,7 +31,7 @@ pub(super) struct OnPart {
 impl OnPart {
     /// A law on the springs alone.
     pub(super) const fn springs(law: &'static dyn Effect, name: &'static str) -> Self {
-        Self { law, on: Stored::Springs, name, equation: None }
+        Self { law, on: Where::Store(Stored::Springs), name, equation: None }
     }
 
     /// A law on the hysteretic force alone.
@@ -31,7 +40,16 @@ impl OnPart {
         name: &'static str,
         equation: &'static str,
     ) -> Self {
-        Self { law, on: Stored::Hysteretic, name, equation: Some(equation) }
+        Self { law, on: Where::Store(Stored::Hysteretic), name, equation: Some(equation) }
+    }
+
+    /// A law on the dashpot alone.
+    pub(super) const fn dashpot(
+        law: &'static dyn Effect,
+        name: &'static str,
+        equation: &'static str,
+    ) -> Self {
+        Self { law, on: Where::Dashpot, name, equation: Some(equation) }
     }
 }
 
@@ -46,7 +64,7 @@ impl Effect for OnPart {
     }
 
     fn on_a_part(&self) -> bool {
-        true
+        !matches!(self.on, Where::Dashpot)
     }
 
     fn in_one_recording(&self) -> bool {
@@ -66,6 +84,9 @@ impl Effect for OnPart {
     }
 
     fn factors(&self, scene: &Scene, shape: &[f64]) -> Option<Factors> {
-        self.law.factors(scene, shape).map(|factors| Factors { on: self.on, ..factors })
+        self.law.factors(scene, shape).map(|factors| match self.on {
+            Where::Store(on) => Factors { on, ..factors },
+            Where::Dashpot => factors.of_damping(),
+        })
     }
 }

@@ -5,7 +5,7 @@
 //! | `c_p`, p | coefficient and power | N (s/mm)^p, - | >= 0, 0.2 to 3 |
 //! | `c_2` | coefficient of the square | N s^2/mm^2 | >= 0 |
 //! | `c_d`, p | coefficient of what is more one way, and its power | N (s/mm)^p, - | any, 0.5 to 3 |
-//! | `c_p`, `c_n`, p | coefficients up and down, and their power | N (s/mm)^p, - | >= 0, 1.3 to 3 |
+//! | `c_up`, `c_down`, p | coefficients up and down, and their power | N (s/mm)^p, - | >= 0, 1.3 to 3 |
 //! | `F_e`, `v_e` | force and velocity of Eyring's flow | N, mm/s | >= 0, 3 % to 100 % of the largest speed |
 //!
 //! Reference: Crandall, J. Sound Vib. 11 (1970) 3 (damping laws); Eyring, J. Chem. Phys. 4 (1936) 283.
@@ -57,7 +57,7 @@ impl Effect for QuadraticDamping {
             },
             Self::EachWay => About {
                 law: "power, by direction",
-                equation: "F_d = c_p v^p where v > 0, -c_n (-v)^p where v < 0",
+                equation: "F_d = c_up v^p where v > 0, -c_down (-v)^p where v < 0",
                 ..square
             },
         }
@@ -69,7 +69,7 @@ impl Effect for QuadraticDamping {
             Self::Power => vec![positive("c_p", "N (s/mm)^p")],
             Self::Eyring => vec![positive("F_e", "N")],
             Self::OneWay => vec![signed("c_d", "N (s/mm)^p")],
-            Self::EachWay => vec![positive("c_p", "N (s/mm)^p"), positive("c_n", "N (s/mm)^p")],
+            Self::EachWay => vec![positive("c_up", "N (s/mm)^p"), positive("c_down", "N (s/mm)^p")],
         }
     }
 

@@ -9,6 +9,8 @@ use crate::velocity;
 /// Motion and work of a specimen so far, all zero at first.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Past {
+    /// Duration of its recordings, s.
+    pub time: f64,
     /// Largest absolute displacement, mm.
     pub displacement: f64,
     /// Path travelled, mm.
@@ -38,6 +40,7 @@ impl Past {
         let mut past = self;
         let (first, last) = samples.into_inner();
         past.displacement = past.displacement.max(x[first].abs());
+        past.time += time[last] - time[first];
         for i in first + 1..=last {
             let half = 0.5 * (time[i] - time[i - 1]);
             let step = |rate: &dyn Fn(usize) -> f64| half * (rate(i - 1) + rate(i));

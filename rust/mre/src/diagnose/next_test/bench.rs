@@ -99,14 +99,16 @@ impl<'b, 'a> Bench<'b, 'a> {
     /// Criteria to first order of models where truths show their forces.
     fn at_a_glance(&self, test: &Imagined) -> Option<Criteria> {
         let world = self.world(test, None)?;
-        let views: Vec<View> = self
-            .models
+        let models: Vec<&Candidate> = self.models.iter().collect();
+        let views: Vec<View> = world
+            .assemblies(&models)
             .par_iter()
+            .zip(&self.models)
             .zip(&self.held)
-            .map(|(model, held)| View::new(&world, model, held, &self.noise))
+            .map(|((assembly, model), held)| View::new(assembly, model, held, &self.noise))
             .collect();
-        let seen: Vec<Vec<f64>> =
-            self.truths.par_iter().map(|truth| world.simulated(&truth.candidate)).collect::<Option<_>>()?;
+        let truths: Vec<&Candidate> = self.truths.iter().map(|truth| &truth.candidate).collect();
+        let seen = world.simulated(&truths)?;
         let more = (self.known_samples() + test.signal().time.len()) as f64 / self.known_samples() as f64;
         let criterion = |t: usize, model: usize| {
             let fitted = &self.models[model].fitted;
@@ -155,7 +157,8 @@ impl<'b, 'a> Bench<'b, 'a> {
         let (rows, known) =
             (self.rows_with(world), if is_true { &truth.candidate } else { &self.models[model] });
         let data = self.data(&rows);
-        let fitted = fit(world.assembly(known), data, &known.fitted.unit);
+        let Some(assembly) = world.assembly(known) else { return f64::NAN };
+        let fitted = fit(assembly, data, &known.fitted.unit);
         // What the recordings leave open may lie far from what the test asks of another model.
         if is_true { fitted.criterion() } else { begun_anew(fitted, data).criterion() }
     }

@@ -1,12 +1,11 @@
 //! A test as it is imagined: each model that may be true moves finely, and is seen at the samples of a recording.
 
-use rayon::prelude::*;
-
 use super::excitation::{Kind, Signal};
 use super::limits::Limits;
 use super::truth::Truth;
 use super::world::World;
 use crate::assembly::{Base, Campaign};
+use crate::diagnose::candidates::Candidate;
 
 /// Samples of the fastest cycle of a device that moves on between the samples of a recording.
 const FINE: f64 = 100.0;
@@ -35,10 +34,8 @@ impl Imagined {
         let fine = kind.signal(&Limits { rate: times * limits.rate, ..limits.clone() })?;
         let world = World::new(known, base, &fine, None, None)?;
         let every = |series: &[f64]| series.iter().step_by(times as usize).copied().collect::<Vec<f64>>();
-        let forces = truths
-            .par_iter()
-            .map(|truth| world.simulated(&truth.candidate).map(|force| every(&force)))
-            .collect::<Option<Vec<Vec<f64>>>>()?;
+        let truths: Vec<&Candidate> = truths.iter().map(|truth| &truth.candidate).collect();
+        let forces = world.simulated(&truths)?.iter().map(|force| every(force)).collect();
         // A velocity that was recorded will be again.
         let derived = known.recordings()[0].velocity_window().is_some();
         let velocity = (!derived).then(|| every(world.test().velocity()));

@@ -28,11 +28,16 @@ struct Telling {
 
 /// The easiest test that tells enough, or the one that tells most; with what it shows besides of what is hidden.
 pub(super) fn to_tell(bench: &Bench, wider: &[Limits], hidden: &Hidden) -> Option<NextTest> {
-    let mut all: Vec<Telling> = Vec::new();
-    for level in 0..wider.len() {
-        all.extend(
-            KINDS.par_iter().filter_map(|kind| glance(bench, wider, level, *kind)).collect::<Vec<_>>(),
-        );
+    let mut all: Vec<Telling> = glances(bench, wider, 0);
+    let told = |all: &[Telling]| all.iter().any(|telling| telling.told.worth >= WORTH);
+    // Where neither the easiest nor the hardest tests tell anything, none between them does.
+    let hopeless =
+        !told(&all) && !hardest(wider).into_iter().any(|level| told(&glances(bench, wider, level)));
+    let levels = if hopeless { 1 } else { wider.len() };
+    for level in 0..levels {
+        if level > 0 {
+            all.extend(glances(bench, wider, level));
+        }
         while let Some(i) = most(&all, |told| told.certainty, ENOUGH) {
             look(bench, wider, &mut all[i])?;
             if all[i].told.certainty >= ENOUGH {
@@ -56,6 +61,23 @@ pub(super) fn to_tell(bench: &Bench, wider: &[Limits], hidden: &Hidden) -> Optio
         best = easier.or(Some(i));
     }
     proposed(bench, wider, hidden, &all, best?)
+}
+
+/// The longest of the slowest tests, of the fastest, and of those of the highest frequency.
+fn hardest(wider: &[Limits]) -> Vec<usize> {
+    let last = |alike: &dyn Fn(&Limits) -> bool| wider.iter().rposition(alike);
+    let (first, end) = (&wider[0], &wider[wider.len() - 1]);
+    let slowest = last(&|limits| limits.speed == first.speed && limits.highest == first.highest);
+    let fastest = last(&|limits| limits.speed == end.speed && limits.highest == first.highest);
+    let mut levels: Vec<usize> = slowest.into_iter().chain(fastest).chain([wider.len() - 1]).collect();
+    levels.dedup();
+    levels.retain(|level| *level > 0);
+    levels
+}
+
+/// All kinds within some limits.
+fn glances(bench: &Bench, wider: &[Limits], level: usize) -> Vec<Telling> {
+    KINDS.par_iter().filter_map(|kind| glance(bench, wider, level, *kind)).collect()
 }
 
 fn glance(bench: &Bench, wider: &[Limits], level: usize, kind: Kind) -> Option<Telling> {
@@ -117,6 +139,7 @@ fn proposed(
 
 #[cfg(test)]
 mod tests {
+    use super::super::GivenLimits;
     use super::*;
 
     fn told(worth: f64) -> Told {
@@ -143,6 +166,18 @@ mod tests {
         after[0] = telling(Kind::Sweep, 2.0, Some(1.0));
         assert_eq!(promising(&after, 0.5), Some(1));
         assert_eq!(promising(&after, 0.95), None);
+    }
+
+    #[test]
+    fn the_hardest_are_the_longest_of_each() {
+        let tested =
+            Limits { stroke: 5.0, speed: 50.0, highest: 10.0, duration: 12.0, rate: 200.0, current: None };
+        let wider = tested.wider(&GivenLimits::default());
+        let sizes = |level: usize| (wider[level].duration, wider[level].speed, wider[level].highest);
+        let hard: Vec<(f64, f64, f64)> = hardest(&wider).into_iter().map(sizes).collect();
+        assert_eq!(hard, [(96.0, 50.0, 10.0), (96.0, 200.0, 10.0), (24.0, 200.0, 40.0)]);
+        assert_eq!(hardest(&wider[..4]), [3]);
+        assert!(hardest(&wider[..1]).is_empty());
     }
 
     #[test]

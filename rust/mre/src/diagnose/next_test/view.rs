@@ -3,7 +3,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::world::{World, moved, widened};
+use super::world::{moved, widened};
+use crate::assembly::Assembly;
 use crate::diagnose::candidates::Candidate;
 use crate::diagnose::least_squares::{Data, Fitted};
 use crate::diagnose::moves::Moves;
@@ -45,12 +46,12 @@ pub(super) struct View {
 }
 
 impl View {
-    /// `noise` is that of the recordings and of the test.
-    pub(super) fn new(world: &World, model: &Candidate, held: &Held, noise: &Noise) -> Self {
-        let (assembly, place) = (world.assembly(model), world.last());
+    /// Of an assembly whose last recording is the test; `noise` is that of the recordings and of the test.
+    pub(super) fn new(assembly: &Assembly, model: &Candidate, held: &Held, noise: &Noise) -> Self {
+        let place = assembly.campaign().recordings().len() - 1;
         let fitted = Fitted { coefficients: widened(model), ..model.fitted.clone() };
-        let moves = Moves::of(&assembly, &fitted);
-        let bearing: Vec<usize> = moves.bearing(&assembly, place).collect();
+        let moves = Moves::of(assembly, &fitted);
+        let bearing: Vec<usize> = moves.bearing(assembly, place).collect();
         let here = assembly.physical(&fitted.unit);
         let shapes = std::iter::once(here.as_slice()).chain(bearing.iter().map(|j| moves.shapes(*j)));
         let jobs: Vec<(usize, &[f64])> = shapes.map(|shapes| (place, shapes)).collect();
@@ -58,8 +59,8 @@ impl View {
         let own = made.next().unwrap_or_default();
         let force = own.measured(&fitted.coefficients);
         let slopes = bearing.iter().zip(made).map(|(j, columns)| {
-            let (place, change) = moves.slope(*j, &columns, &fitted.coefficients, &force);
-            (place, noise.whiten(world.last(), &change))
+            let (i, change) = moves.slope(*j, &columns, &fitted.coefficients, &force);
+            (i, noise.whiten(place, &change))
         });
         let linear = own.places.iter().zip(&own.columns);
         let linear = linear.map(|(i, column)| (*i, noise.whiten(place, column)));

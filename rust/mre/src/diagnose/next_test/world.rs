@@ -2,10 +2,15 @@
 
 use std::sync::Arc;
 
+use rayon::prelude::*;
+
 use super::excitation::Signal;
-use crate::assembly::{Assembly, Base, Campaign, Doubts};
+use crate::assembly::{Assembly, Base, Campaign, Doubts, OnAnother};
 use crate::diagnose::candidates::Candidate;
 use crate::recording::{Condition, Recording, Series};
+
+/// Models that are simulated side by side: more would take much memory.
+const TOGETHER: usize = 16;
 
 /// A campaign with a recording of an imagined test at its end, and the base on it.
 pub(super) struct World {
@@ -80,17 +85,33 @@ impl World {
     }
 
     /// A model of the known recordings on these.
-    pub(super) fn assembly<'w>(&'w self, of: &Candidate) -> Assembly<'w> {
-        let coefficients = widened(of);
-        of.assembly.with_another((&self.campaign, &self.base), &of.fitted.unit, &coefficients)
+    pub(super) fn assembly<'w>(&'w self, of: &Candidate) -> Option<Assembly<'w>> {
+        self.assemblies(&[of]).pop()
     }
 
-    /// Force in N of a model on the imagined test; `None` where it is not finite.
-    pub(super) fn simulated(&self, of: &Candidate) -> Option<Vec<f64>> {
-        let assembly = self.assembly(of);
-        let shapes = assembly.physical(&of.fitted.unit);
-        let force = assembly.columns(self.last(), &shapes).measured(&widened(of));
-        force.iter().all(|f| f.is_finite()).then_some(force)
+    /// Several of them, which is cheaper than one by one.
+    pub(super) fn assemblies<'w>(&'w self, of: &[&Candidate]) -> Vec<Assembly<'w>> {
+        self.on_these(of).into_iter().map(|(model, _)| model.assembly).collect()
+    }
+
+    /// Forces in N of models on the imagined test; `None` where one is not finite.
+    pub(super) fn simulated(&self, of: &[&Candidate]) -> Option<Vec<Vec<f64>>> {
+        let some = |some: &[&Candidate]| {
+            let models = self.on_these(some).into_par_iter();
+            models.map(|(model, coefficients)| model.measured(&coefficients)).collect::<Vec<_>>()
+        };
+        let forces: Vec<Vec<f64>> = of.chunks(TOGETHER).flat_map(some).collect();
+        forces.iter().flatten().all(|f| f.is_finite()).then_some(forces)
+    }
+
+    fn on_these<'w>(&'w self, of: &[&Candidate]) -> Vec<(OnAnother<'w>, Vec<f64>)> {
+        let widened: Vec<Vec<f64>> = of.iter().map(|of| widened(of)).collect();
+        let models: Vec<(&Assembly, &[f64], &[f64])> = of
+            .iter()
+            .zip(&widened)
+            .map(|(of, coefficients)| (&of.assembly, of.fitted.unit.as_slice(), coefficients.as_slice()))
+            .collect();
+        OnAnother::all(&models, (&self.campaign, &self.base)).into_iter().zip(widened).collect()
     }
 }
 

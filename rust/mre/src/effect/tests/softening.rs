@@ -88,6 +88,9 @@ fn a_law_on_a_part_leaves_the_others() {
     }
     close(on("path, hysteretic force", Part::Hysteretic).unwrap(), 0.7, 2e-3);
     assert!(law("cyclic_degradation", "path, hysteretic force").about().equation.starts_with("k_w"));
+    close(on("path, damping", Part::Damping).unwrap(), 0.7, 2e-3);
+    assert_eq!(on("path, damping", Part::Stiffness), Some(1.0));
+    assert_eq!(on("path, damping", Part::Hysteretic), None);
 }
 
 #[test]
@@ -99,6 +102,17 @@ fn what_stays_of_the_work_is_lost_for_good_and_what_is_given_back_is_not() {
     close(wear.unwrap().stiffness[5000], 1.0 - 0.3 * (4.75 * heat + 10.0) / (5.0 * heat), 1e-3);
     let warm = law("thermal_softening", "dissipated power, stiffness").factors(&stage.scene(), &[0.3, 1e3]);
     close(warm.unwrap().stiffness[5000], 0.7, 1e-3);
+}
+
+#[test]
+fn a_device_ages_from_the_start() {
+    let stage = Stage::sine(2.0, 1.0, 10.0);
+    let at = |law_name: &str, shape: &[f64]| {
+        law("creep", law_name).factors(&stage.scene(), shape).unwrap().stiffness[9000]
+    };
+    close(at("ageing, stiffness", &[0.2, 1.0]), 0.8, 1e-9);
+    close(at("ageing by a power, stiffness", &[0.3, 1.0]), 10.0_f64.powf(-0.3), 1e-9);
+    close(at("ageing to an end, stiffness", &[0.3, 4.5]), 0.7 + 0.3 * (-2.0_f64).exp(), 1e-9);
 }
 
 #[test]
