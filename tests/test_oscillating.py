@@ -55,3 +55,29 @@ def test_a_stiffness_that_oscillates_gets_no_name(ripple: float) -> None:
 def test_neither_noise_nor_a_tone_is_one() -> None:
     assert diagnosed(0.0).verdict == "adequate"
     assert diagnosed(0.0, tone=1.0).unknown is None
+
+
+@pytest.mark.parametrize("tone", [3.5, 6.5])
+def test_a_tone_beside_a_sine_is_none(tone: float) -> None:
+    """It is half of what an oscillating stiffness is there."""
+    found = diagnosed_sine(tone=tone)
+    assert found.verdict == "adequate", found
+
+
+def test_a_stiffness_that_oscillates_under_a_sine_gets_no_name() -> None:
+    found = diagnosed_sine(ripple=0.3)
+    assert found.verdict == "unexplained", found
+    assert found.unknown is not None
+    told = {d["on"]: d["size"] for d in found.unknown["depends_on"]}
+    assert told["oscillation"] == pytest.approx(FREQUENCY, abs=0.01)
+
+
+def diagnosed_sine(ripple: float = 0.0, tone: float = 0.0) -> Diagnosis:
+    """Three minutes of 2 Hz on a spring and a dashpot; the stiffness has a wave or the force a tone."""
+    rng = np.random.default_rng(58)
+    t = np.arange(18_000) / 100
+    turn = 2 * np.pi * 2.0
+    x, v = 3 * np.sin(turn * t), 3 * turn * np.cos(turn * t)
+    force = (8 + ripple * np.sin(2 * np.pi * FREQUENCY * t)) * x + 0.3 * v + rng.normal(size=t.size)
+    force += 0.15 * np.sin(2 * np.pi * tone * t) * (tone > 0)
+    return mre_core.diagnose(Recording(t, x, force, velocity=v), "kelvin_voigt", seed=1)

@@ -208,8 +208,8 @@ impl Recording {
         wrap(transient::exclude(&self.inner, &names))
     }
 
-    /// The same recording of a specimen that has been through others, the first of them first; none for a first one. Wear
-    /// and softening that do not come back then go on from them. Each has to have a force.
+    /// The same recording of a specimen that has been through others, the first of them first; none for a first one. Wear,
+    /// softening that does not come back and ageing then go on from them. Each has to have a force.
     #[allow(clippy::needless_pass_by_value)] // taken over from Python
     fn after(&self, earlier: Vec<Self>) -> PyResult<Self> {
         wrap(self.inner.after(earlier.iter().map(|recording| recording.inner.as_ref())))

@@ -82,7 +82,7 @@ fn unknown(u: &Unknown) -> Value {
         .depends_on
         .iter()
         .map(|d| {
-            let (on, memory) = match d.on {
+            let (on, size) = match d.on {
                 On::Displacement => ("displacement", None),
                 On::Velocity => ("velocity", None),
                 On::State => ("state", None),
@@ -99,7 +99,7 @@ fn unknown(u: &Unknown) -> Value {
                 On::Current => ("current", None),
                 On::Recording => ("recording", None),
             };
-            json!({"on": on, "size": memory, "share": d.share})
+            json!({"on": on, "size": size, "share": d.share})
         })
         .collect();
     json!({

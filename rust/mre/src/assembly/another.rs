@@ -33,19 +33,11 @@ impl<'w> OnAnother<'w> {
         let wider: Vec<Assembly<'w>> = models.iter().map(|(of, ..)| of.wider(campaign, base)).collect();
         let shapes: Vec<Vec<f64>> =
             wider.iter().zip(models).map(|(wider, (_, unit, _))| wider.physical(unit)).collect();
-        let Some(plain) = wider.first().map(|wider| wider.with(Vec::new())) else { return Vec::new() };
-        let jobs: Vec<(usize, &[f64])> =
-            shapes.iter().map(|shapes| (last, &shapes[..plain.base_shapes()])).collect();
-        let bases = plain.base_seen(&jobs);
+        let bases = bases(&wider, &shapes);
         let all = wider.into_iter().zip(shapes).zip(bases).zip(models);
-        all.map(|(((wider, shapes), base), (.., coefficients))| {
-            let alone = if let Base::Held(kept) = plain.base() {
-                kept.alone(&campaign.recordings()[last])
-            } else {
-                let columns = plain.with_effects(last, &shapes[..plain.base_shapes()], base.clone());
-                columns.force(&coefficients[..plain.base_coefficients()])
-            };
-            let mut model = Self { assembly: wider, shapes, base };
+        all.map(|(((assembly, shapes), base), (.., coefficients))| {
+            let alone = assembly.alone_in(last, &shapes, &base, coefficients);
+            let mut model = Self { assembly, shapes, base };
             model.see(alone, coefficients);
             model
         })
@@ -82,7 +74,7 @@ impl<'w> OnAnother<'w> {
     /// Columns of the device in the last recording.
     fn columns(&self) -> Columns {
         let (assembly, last) = (&self.assembly, self.last());
-        let base = if assembly.sees_otherwise(&self.shapes) || assembly.asks_between() {
+        let base = if assembly.sees_otherwise(last, &self.shapes) || assembly.asks_between() {
             assembly.base_seen(&[(last, &self.shapes)]).pop().unwrap_or_default()
         } else {
             self.base.clone()
@@ -95,7 +87,26 @@ impl<'w> OnAnother<'w> {
     }
 }
 
+/// Columns of the base alone in the last recording, at the shapes of each model.
+fn bases(models: &[Assembly], shapes: &[Vec<f64>]) -> Vec<BaseColumns> {
+    let Some(plain) = models.first().map(|first| first.with(Vec::new())) else { return Vec::new() };
+    let last = plain.campaign().recordings().len() - 1;
+    let own = plain.base_shapes();
+    let jobs: Vec<(usize, &[f64])> = shapes.iter().map(|shapes| (last, &shapes[..own])).collect();
+    plain.base_seen(&jobs)
+}
+
 impl Assembly<'_> {
+    /// Force in N of the base alone in a recording, from its columns.
+    fn alone_in(&self, r: usize, shapes: &[f64], base: &BaseColumns, coefficients: &[f64]) -> Vec<f64> {
+        if let Base::Held(kept) = self.base {
+            return kept.alone(&self.campaign.recordings()[r]);
+        }
+        let plain = self.with(Vec::new());
+        let columns = plain.with_effects(r, &shapes[..plain.base_shapes()], base.clone());
+        columns.force(&coefficients[..plain.base_coefficients()])
+    }
+
     /// The same on a campaign with one recording more, in which nothing has a force.
     fn wider<'w>(&self, campaign: &'w Campaign, base: &'w Base) -> Assembly<'w> {
         let nothing = campaign.recordings().last().map_or(Vec::new(), |last| vec![0.0; last.len()]);

@@ -132,9 +132,10 @@ impl Assembly<'_> {
         !self.asks_between() || columns.iter().enumerate().all(has)
     }
 
-    /// True where effects change the motion or the current that the base sees, or how its state follows them.
-    pub(super) fn sees_otherwise(&self, shapes: &[f64]) -> bool {
-        !self.otherwise(&self.scene(0), &self.shape_of(shapes)).is_nothing()
+    /// True where effects change the motion or the current that the base sees in a recording, or how its state follows
+    /// them.
+    pub(super) fn sees_otherwise(&self, r: usize, shapes: &[f64]) -> bool {
+        !self.otherwise(&self.scene(r), &self.shape_of(shapes)).is_nothing()
     }
 
     fn otherwise(&self, scene: &Scene, shape_of: &[&[f64]]) -> Otherwise {

@@ -60,7 +60,7 @@ impl<'a> Assembly<'a> {
         let columns = match &self.known {
             Some(known) if known.shapes == own && self.serves(&known.columns) => known.columns.clone(),
             // The base sees another motion than the recorded one.
-            _ if self.sees_otherwise(shapes) => Vec::new(),
+            _ if self.sees_otherwise(0, shapes) => Vec::new(),
             _ => {
                 let recordings = 0..self.campaign.recordings().len();
                 let jobs: Vec<(usize, &[f64], &Recording)> =

@@ -194,7 +194,7 @@ fn fourier(time: &[f64], series: &[f64], frequency: f64) -> (f64, f64) {
 }
 
 /// Frequency of a sinusoidal drive, Hz; `None` where the motion is no sine.
-fn drive(scene: &Scene) -> Option<f64> {
+pub(super) fn drive(scene: &Scene) -> Option<f64> {
     let (time, x) = (scene.time, scene.displacement);
     let crossings: Vec<f64> = (1..x.len())
         .filter(|i| x[i - 1] <= 0.0 && x[*i] > 0.0)

@@ -54,6 +54,7 @@ mod realisation;
 mod refitted;
 mod resolution;
 mod run;
+mod scan;
 mod screen;
 mod search;
 mod settings;

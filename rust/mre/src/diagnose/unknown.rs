@@ -24,7 +24,7 @@ const RIDGE: f64 = 1e-2;
 pub struct Dependence {
     /// The thing.
     pub on: On,
-    /// Share of what all features take off that this thing alone does.
+    /// Share of what all features, or a wave in time, take off that this thing alone does.
     pub share: f64,
 }
 
@@ -60,16 +60,18 @@ pub struct Unknown {
 /// Describe what is left beside a fitted model.
 pub(super) fn describe(null: &Null) -> Unknown {
     let generic = null.generic();
-    let all = generic.mismatch().excess().max(f64::MIN_POSITIVE);
+    let oscillating = null.oscillating().filter(|found| found.mismatch.p_value < BEYOND_CHANCE);
+    let of_waves = oscillating.map_or(0.0, |found| found.mismatch.excess());
+    let all = generic.mismatch().excess().max(of_waves).max(f64::MIN_POSITIVE);
+    let share = |excess: f64| (excess / all).min(1.0);
     let mut depends_on: Vec<Dependence> = generic
         .things()
         .into_iter()
-        .map(|on| Dependence { on, share: (generic.of(|other| other == on).excess() / all).min(1.0) })
+        .map(|on| Dependence { on, share: share(generic.of(|other| other == on).excess()) })
         .collect();
-    if let Some(found) = null.oscillating().filter(|found| found.mismatch.p_value < BEYOND_CHANCE) {
-        let share = (found.mismatch.excess() / all).min(1.0);
-        depends_on.push(Dependence { on: On::Oscillation(found.frequency), share });
-    }
+    depends_on.extend(
+        oscillating.map(|found| Dependence { on: On::Oscillation(found.frequency), share: share(of_waves) }),
+    );
     depends_on.sort_by(|a, b| b.share.total_cmp(&a.share));
     let strongest = depends_on.first().map_or(0.0, |d| d.share);
     depends_on.retain(|d| d.share > 0.0 && d.share >= WORTH_NAMING * strongest);

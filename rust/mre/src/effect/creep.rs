@@ -5,15 +5,15 @@
 //! | `k_c` | stiffness that relaxes, a decade or in all | N/mm | >= 0 |
 //! | `t_0` | time after which it begins | s | two samples to the longest recording |
 //! | `tau_c` | relaxation time | s | 1/3 to 30 times the longest recording |
-//! | s | share of the stiffness lost a decade, or (saturating) in the end | - | 0 to 0.4, or 0.95 |
+//! | s | share of the stiffness lost a decade, or (to an end) in the end | - | 0 to 0.4, or 0.95 |
 //! | p | power | - | 0 to 1 |
-//! | `tau_a` | time after which 63 % of it is lost | s | 1 % to three times the life of a specimen |
+//! | `tau_a` | time after which 63 % of it is lost | s | 1 % to a hundred times the longest recording |
 //!
 //! The logarithmic kernel falls with `log10(1 + t/t_0)`: a spectrum of relaxation times that is flat above `t_0` and fades
 //! below it as `exp(-t_0/tau)`, here up to a hundred times the longest recording: the same for all, so that none is
 //! stiffer.
-//! What ages goes on ageing from one recording of a specimen to the next, without the rests between them.
-//! Its spectrum may also begin at once (a box spectrum).
+//! Its spectrum may also begin at once (a box spectrum). What ages goes on ageing from one recording of a specimen to the
+//! next, without the rests between them.
 //! Reference: Findley, Lai and Onaran, Creep and Relaxation of Nonlinear Viscoelastic Materials, 1976; Fung,
 //! Biomechanics: Mechanical Properties of Living Tissues, 1981.
 //! Known limit: with a mean displacement and in one recording it cannot be told from drift.
@@ -125,7 +125,6 @@ impl Effect for Creep {
 
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
         let t_0 = ideal_below(order_within("t_0", "s", 2.0 * sizes.step, sizes.duration));
-        let life = sizes.life * sizes.duration;
         match self {
             Self::Logarithmic | Self::Box => vec![t_0],
             Self::Slow => {
@@ -134,7 +133,7 @@ impl Effect for Creep {
             Self::Ageing | Self::AgeingWhole => vec![within("s", "", 0.0, 0.4), t_0],
             Self::AgeingPower => vec![within("p", "", 0.0, 1.0), t_0],
             Self::AgeingToAnEnd => {
-                let tau = order_within("tau_a", "s", 0.01 * life, 3.0 * life);
+                let tau = order_within("tau_a", "s", 0.01 * sizes.duration, 100.0 * sizes.duration);
                 vec![within("s", "", 0.0, 0.95), ideal_above(tau)]
             }
         }

@@ -10,8 +10,8 @@ use super::imagined::Imagined;
 use super::limits::Limits;
 use super::truth::{Truth, truths};
 use super::view::{Held, View};
-use super::world::World;
-use crate::assembly::Base;
+use super::world::{TOGETHER, World};
+use crate::assembly::{Assembly, Base};
 use crate::diagnose::candidates::Candidate;
 use crate::diagnose::joint::{begun_anew, fit};
 use crate::diagnose::least_squares::Data;
@@ -100,13 +100,15 @@ impl<'b, 'a> Bench<'b, 'a> {
     fn at_a_glance(&self, test: &Imagined) -> Option<Criteria> {
         let world = self.world(test, None)?;
         let models: Vec<&Candidate> = self.models.iter().collect();
-        let views: Vec<View> = world
-            .assemblies(&models)
-            .par_iter()
-            .zip(&self.models)
-            .zip(&self.held)
-            .map(|((assembly, model), held)| View::new(assembly, model, held, &self.noise))
-            .collect();
+        let view = |((assembly, model), held): ((Assembly, &&Candidate), &Held)| {
+            View::new(&assembly, model, held, &self.noise)
+        };
+        let some = |(models, held): (&[&Candidate], &[Held])| {
+            let assemblies = world.assemblies(models).into_par_iter();
+            assemblies.zip(models).zip(held).map(view).collect::<Vec<View>>()
+        };
+        let views: Vec<View> =
+            models.chunks(TOGETHER).zip(self.held.chunks(TOGETHER)).flat_map(some).collect();
         let truths: Vec<&Candidate> = self.truths.iter().map(|truth| &truth.candidate).collect();
         let seen = world.simulated(&truths)?;
         let more = (self.known_samples() + test.signal().time.len()) as f64 / self.known_samples() as f64;

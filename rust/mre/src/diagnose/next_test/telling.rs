@@ -1,6 +1,8 @@
 //! The test that tells most of what is in doubt: all are looked at to first order, the easiest limits first, and those
 //! that promise most closely.
 
+use std::collections::BTreeMap;
+
 use rayon::prelude::*;
 
 use super::bench::Bench;
@@ -28,16 +30,24 @@ struct Telling {
 
 /// The easiest test that tells enough, or the one that tells most; with what it shows besides of what is hidden.
 pub(super) fn to_tell(bench: &Bench, wider: &[Limits], hidden: &Hidden) -> Option<NextTest> {
-    let mut all: Vec<Telling> = glances(bench, wider, 0);
-    let told = |all: &[Telling]| all.iter().any(|telling| telling.told.worth >= WORTH);
-    // Where neither the easiest nor the hardest tests tell anything, none between them does.
-    let hopeless =
-        !told(&all) && !hardest(wider).into_iter().any(|level| told(&glances(bench, wider, level)));
-    let levels = if hopeless { 1 } else { wider.len() };
-    for level in 0..levels {
-        if level > 0 {
-            all.extend(glances(bench, wider, level));
+    let mut all: Vec<Telling> = Vec::new();
+    let mut ahead: BTreeMap<usize, Vec<Telling>> = BTreeMap::new();
+    let tells = |glances: &[Telling]| glances.iter().any(|telling| telling.told.worth >= WORTH);
+    let mut levels = wider.len();
+    for level in std::iter::once(0).chain(hardest(wider)) {
+        let glances = glances(bench, wider, level);
+        let told = tells(&glances);
+        ahead.insert(level, glances);
+        if told {
+            break;
         }
+        if ahead.len() > hardest(wider).len() {
+            // Neither the easiest nor the hardest tests tell anything: it is taken that none between them does.
+            levels = 1;
+        }
+    }
+    for level in 0..levels {
+        all.extend(ahead.remove(&level).unwrap_or_else(|| glances(bench, wider, level)));
         while let Some(i) = most(&all, |told| told.certainty, ENOUGH) {
             look(bench, wider, &mut all[i])?;
             if all[i].told.certainty >= ENOUGH {

@@ -10,7 +10,7 @@ use crate::diagnose::candidates::Candidate;
 use crate::recording::{Condition, Recording, Series};
 
 /// Models that are simulated side by side: more would take much memory.
-const TOGETHER: usize = 16;
+pub(super) const TOGETHER: usize = 16;
 
 /// A campaign with a recording of an imagined test at its end, and the base on it.
 pub(super) struct World {
