@@ -59,8 +59,7 @@ impl<'w> OnAnother<'w> {
         let whole = InSeries::first(recording, &alone, flexibility.unwrap_or_default());
         Arc::make_mut(&mut self.assembly.whole)[last] = whole;
         Arc::make_mut(&mut self.assembly.reference)[last] = alone;
-        let device = self.assembly.device_coefficients();
-        let own: Vec<f64> = coefficients.iter().zip(device).map(|(c, d)| if d { *c } else { 0.0 }).collect();
+        let own = self.assembly.of_the_device(coefficients);
         for _ in 0..PASSES {
             let force = self.columns().force(&own);
             let off = distance(&self.assembly.whole[last], &force);

@@ -89,9 +89,13 @@ impl<'a> Assembly<'a> {
 
     /// Force in N of the whole device in a recording, as near as what is known of it leads.
     pub(super) fn force_seen(&self, r: usize, unit: &[f64], coefficients: &[f64]) -> Vec<f64> {
+        self.force_of_the_device(r, &self.physical(unit), &self.of_the_device(coefficients))
+    }
+
+    /// Coefficients with zeros for what belongs to the measurement.
+    pub(super) fn of_the_device(&self, coefficients: &[f64]) -> Vec<f64> {
         let device = self.device_coefficients();
-        let own: Vec<f64> = coefficients.iter().zip(device).map(|(c, d)| if d { *c } else { 0.0 }).collect();
-        self.force_of_the_device(r, &self.physical(unit), &own)
+        coefficients.iter().zip(device).map(|(c, d)| if d { *c } else { 0.0 }).collect()
     }
 
     /// What the force of the device takes from its motion; `None`: nothing follows from it.
