@@ -7,6 +7,10 @@ import pytest
 from mre_core import Recording
 from rig import SINH, Cli, made_of, motion, record, write_csv
 
+if "PYTEST_XDIST_WORKER" in os.environ:
+    # The workers have the cores among them.
+    os.environ.setdefault("RAYON_NUM_THREADS", "1")
+
 
 @pytest.fixture(scope="session")
 def sinh_4mm() -> Recording:

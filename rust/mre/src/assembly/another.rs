@@ -36,7 +36,9 @@ impl<'w> OnAnother<'w> {
         let bases = bases(&wider, &shapes);
         let all = wider.into_iter().zip(shapes).zip(bases).zip(models);
         all.map(|(((assembly, shapes), base), (.., coefficients))| {
-            let alone = assembly.alone_in(last, &shapes, &base, coefficients);
+            let of_base =
+                |alone: &Assembly| alone.with_effects(last, &shapes[..alone.base_shapes()], base.clone());
+            let alone = assembly.alone(last, coefficients, of_base);
             let mut model = Self { assembly, shapes, base };
             model.see(alone, coefficients);
             model
@@ -96,17 +98,7 @@ fn bases(models: &[Assembly], shapes: &[Vec<f64>]) -> Vec<BaseColumns> {
 }
 
 impl Assembly<'_> {
-    /// Force in N of the base alone in a recording, from its columns.
-    fn alone_in(&self, r: usize, shapes: &[f64], base: &BaseColumns, coefficients: &[f64]) -> Vec<f64> {
-        if let Base::Held(kept) = self.base {
-            return kept.alone(&self.campaign.recordings()[r]);
-        }
-        let plain = self.with(Vec::new());
-        let columns = plain.with_effects(r, &shapes[..plain.base_shapes()], base.clone());
-        columns.force(&coefficients[..plain.base_coefficients()])
-    }
-
-    /// The same on a campaign with one recording more, in which nothing has a force.
+    /// A model on a campaign with one recording more, in which nothing has a force.
     fn wider<'w>(&self, campaign: &'w Campaign, base: &'w Base) -> Assembly<'w> {
         let nothing = campaign.recordings().last().map_or(Vec::new(), |last| vec![0.0; last.len()]);
         let with = |known: &[Vec<f64>]| Arc::new(known.iter().cloned().chain([nothing.clone()]).collect());

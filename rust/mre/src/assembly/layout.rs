@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::base::{Base, Group};
 use super::campaign::Campaign;
-use super::columns::Known;
+use super::columns::{Columns, Known};
 use crate::effect::{Effect, Flexibility, Scene};
 use crate::parameter::{Parameter, Scale};
 use crate::recording::Recording;
@@ -226,11 +226,20 @@ impl<'a> Assembly<'a> {
 
     /// The same in one of them.
     pub(super) fn base_force_in(&self, r: usize, unit: &[f64], coefficients: &[f64]) -> Vec<f64> {
+        self.alone(r, coefficients, |base| base.columns(r, &base.physical(&unit[..base.base_shapes()])))
+    }
+
+    /// The same from columns of the base.
+    pub(super) fn alone(
+        &self,
+        r: usize,
+        coefficients: &[f64],
+        columns: impl FnOnce(&Self) -> Columns,
+    ) -> Vec<f64> {
         if let Base::Held(kept) = self.base {
             return kept.alone(&self.campaign.recordings()[r]);
         }
-        let alone = self.with(Vec::new());
-        let shapes = alone.physical(&unit[..alone.base_shapes()]);
-        alone.columns(r, &shapes).force(&coefficients[..alone.base_coefficients()])
+        let base = self.with(Vec::new());
+        columns(&base).force(&coefficients[..base.base_coefficients()])
     }
 }

@@ -3,6 +3,7 @@
 //! | symbol | meaning | unit | range |
 //! |---|---|---|---|
 //! | g | half the free play | mm | 0 to half the largest stroke |
+//! | c | its middle | mm | half the largest stroke to either side |
 //!
 //! Reference: Nordin and Gutman, Automatica 38 (2002) 1633.
 //! Known limit: where g is small against all strokes only the jumps at reversals show it.
@@ -20,6 +21,10 @@ pub(super) enum Backlash {
     RoundDeadZone,
     /// No force at all within the gap.
     FreeDeadZone,
+    /// No elastic force within a gap whose middle is elsewhere.
+    OffCentre,
+    /// No force at all within it.
+    FreeOffCentre,
     /// The device stays where it was left until the gap is crossed.
     Play,
     /// Its spring alone does.
@@ -31,6 +36,12 @@ pub(super) enum Backlash {
 const SMALLEST: f64 = 3e-4;
 const RATIO: f64 = 1.6;
 const COUNT: i32 = 15;
+
+/// Gaps and their middles that are tried, over the largest displacement.
+const GAPS: [f64; 4] = [0.01, 0.03, 0.08, 0.2];
+const MIDDLES: [f64; 4] = [-0.3, -0.1, 0.1, 0.3];
+
+const OFF_CENTRE: &str = "there is free play: beside the middle the device is not loaded";
 
 /// Displacement beyond a gap of half width `g`.
 pub(super) fn beyond(x: f64, g: f64) -> f64 {
@@ -58,6 +69,12 @@ fn dragged(scene: &Scene, g: f64) -> Vec<f64> {
     })
 }
 
+impl Backlash {
+    fn is_off_centre(self) -> bool {
+        matches!(self, Self::OffCentre | Self::FreeOffCentre)
+    }
+}
+
 impl Effect for Backlash {
     fn about(&self) -> About {
         let dead_zone = About {
@@ -80,6 +97,18 @@ impl Effect for Backlash {
                 equation: "the device sees x - min(max(x, -g), g) and its velocity",
                 ..dead_zone
             },
+            Self::OffCentre => About {
+                law: "dead zone off centre",
+                plain: OFF_CENTRE,
+                equation: "the device sees x - min(max(x - c, -g), g)",
+                ..dead_zone
+            },
+            Self::FreeOffCentre => About {
+                law: "dead zone off centre, without damping",
+                plain: OFF_CENTRE,
+                equation: "the device sees x - min(max(x - c, -g), g) and its velocity",
+                ..dead_zone
+            },
             Self::Play => About {
                 law: "play",
                 plain: "there is free play: after each reversal the device is not moved at first",
@@ -96,16 +125,20 @@ impl Effect for Backlash {
     }
 
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
-        vec![Parameter { smallest: 0.0, ..within("g", "mm", 0.0, 0.5 * sizes.displacement) }]
+        let half = 0.5 * sizes.displacement;
+        let gap = Parameter { smallest: 0.0, ..within("g", "mm", 0.0, half) };
+        if self.is_off_centre() { vec![gap, within("c", "mm", -half, half)] } else { vec![gap] }
     }
 
     fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
+        if self.is_off_centre() {
+            let of = |g: f64| MIDDLES.map(move |c| vec![g * sizes.displacement, c * sizes.displacement]);
+            return GAPS.into_iter().flat_map(of).collect();
+        }
         let shares: Vec<f64> = match self {
             Self::DeadZone | Self::RoundDeadZone => vec![0.003, 0.01, 0.03, 0.08, 0.16, 0.3],
             // One of twice the right size explains nothing, and the fit jumps from sample to sample.
-            Self::FreeDeadZone | Self::Play | Self::SpringPlay => {
-                (0..COUNT).map(|k| SMALLEST * RATIO.powi(k)).collect()
-            }
+            _ => (0..COUNT).map(|k| SMALLEST * RATIO.powi(k)).collect(),
         };
         shares.iter().map(|share| vec![share * sizes.displacement]).collect()
     }
@@ -115,12 +148,14 @@ impl Effect for Backlash {
         let displacement = match self {
             Self::DeadZone | Self::FreeDeadZone => each(x, |x| beyond(x, g)),
             Self::RoundDeadZone => each(x, |x| x - round(x, g)),
+            Self::OffCentre | Self::FreeOffCentre => each(x, |x| x - (x - shape[1]).clamp(-g, g)),
             Self::Play | Self::SpringPlay => dragged(scene, g),
         };
         let moving = |i: usize| match self {
             Self::RoundDeadZone if g > 0.0 => ((x[i] - displacement[i]) / g).powi(2),
-            Self::DeadZone | Self::RoundDeadZone | Self::SpringPlay => 1.0,
+            Self::DeadZone | Self::RoundDeadZone | Self::OffCentre | Self::SpringPlay => 1.0,
             Self::FreeDeadZone => f64::from(displacement[i] != 0.0),
+            Self::FreeOffCentre => f64::from((x[i] - shape[1]).abs() > g),
             // At one end of the gap.
             Self::Play => f64::from((x[i] - displacement[i]).abs() >= g * (1.0 - 1e-9)),
         };

@@ -362,6 +362,8 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &Backlash::DeadZone,
     &Backlash::RoundDeadZone,
     &Backlash::FreeDeadZone,
+    &Backlash::OffCentre,
+    &Backlash::FreeOffCentre,
     &Backlash::Play,
     &Backlash::SpringPlay,
     &LooseSpring,

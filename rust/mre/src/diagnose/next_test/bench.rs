@@ -83,17 +83,24 @@ impl<'b, 'a> Bench<'b, 'a> {
     /// What the test tells when the models that may best follow it are fitted to it and the recordings.
     pub(super) fn look(&self, test: &Imagined) -> Option<Told> {
         let glance = self.at_a_glance(test)?;
-        let few = |t: usize, models: &[usize]| {
-            let mut few = models.to_vec();
+        let few = |t: usize, member: &Member| {
+            let mut few = member.models.clone();
             few.sort_by(|a, b| glance[&(t, *a)].total_cmp(&glance[&(t, *b)]));
             few.truncate(FITTED);
             few
         };
         let worlds: Vec<World> =
             (0..self.truths.len()).map(|t| self.world(test, Some(test.force(t)))).collect::<Option<_>>()?;
-        let fitted = |(t, model): (usize, usize)| self.fitted(&worlds[t], model, &self.truths[t]);
-        let found = self.jobs(few).into_par_iter().map(|job| (job, fitted(job))).collect();
-        self.monitor.whole(self.told(&found))
+        let found = (0..worlds.len()).into_par_iter().map(|t| {
+            let own = self.fitted_to_its_own(&worlds[t], t)?;
+            let others: Vec<Vec<usize>> = self.beside(t).map(|member| few(t, member)).collect();
+            let lacks = others.par_iter().map(|models| self.fitted(&worlds[t], models, own));
+            let lacks: Vec<Vec<(usize, f64)>> = lacks.collect::<Option<_>>()?;
+            let all = lacks.into_iter().flatten().chain([(self.truths[t].model, own)]);
+            Some(all.map(|(model, criterion)| ((t, model), criterion)).collect::<Vec<_>>())
+        });
+        let found: Vec<Vec<(Job, f64)>> = found.collect::<Option<_>>()?;
+        self.monitor.whole(self.told(&found.into_iter().flatten().collect()))
     }
 
     /// Criteria to first order of models where truths show their forces.
@@ -124,23 +131,19 @@ impl<'b, 'a> Bench<'b, 'a> {
             };
             fitted.criterion() + price + lack
         };
-        let all = self.jobs(|_, models| models.to_vec());
+        let all = (0..self.truths.len()).flat_map(|t| {
+            let others = self.beside(t).flat_map(|member| member.models.iter().copied());
+            std::iter::once(self.truths[t].model).chain(others).map(move |model| (t, model))
+        });
+        let all: Vec<Job> = all.collect();
         Some(all.into_par_iter().map(|(t, model)| ((t, model), criterion(t, model))).collect())
     }
 
-    /// Models to compare where a truth shows its force: itself, and of each effect that may stand in its place those
-    /// that are picked.
-    fn jobs(&self, pick: impl Fn(usize, &[usize]) -> Vec<usize>) -> Vec<Job> {
-        let of = |(t, truth): (usize, &Truth)| {
-            let places = self.places.iter();
-            let beside = places.filter(|members| members.iter().any(|m| m.models.contains(&truth.model)));
-            let picked = beside.flatten().flat_map(|m| pick(t, &m.models));
-            let mut models: Vec<usize> = std::iter::once(truth.model).chain(picked).collect();
-            models.sort_unstable();
-            models.dedup();
-            models.into_iter().map(move |model| (t, model)).collect::<Vec<Job>>()
-        };
-        self.truths.iter().enumerate().flat_map(of).collect()
+    /// What may stand in the place of the effect of a truth.
+    fn beside(&self, t: usize) -> impl Iterator<Item = &Member> {
+        let own = move |member: &Member| member.models.contains(&self.truths[t].model);
+        let places = self.places.iter().filter(move |members| members.iter().any(own));
+        places.flatten().filter(move |member| !own(member))
     }
 
     /// What is told, given criteria; what has none is ruled out by what has.
@@ -154,15 +157,32 @@ impl<'b, 'a> Bench<'b, 'a> {
         })
     }
 
-    fn fitted(&self, world: &World, model: usize, truth: &Truth<'a>) -> f64 {
-        let is_true = truth.model == model;
-        let (rows, known) =
-            (self.rows_with(world), if is_true { &truth.candidate } else { &self.models[model] });
+    /// Criterion of a truth where it shows its force.
+    fn fitted_to_its_own(&self, world: &World, t: usize) -> Option<f64> {
+        let (rows, known) = (self.rows_with(world), &self.truths[t].candidate);
+        Some(fit(world.assembly(known)?, self.data(&rows), &known.fitted.unit).criterion())
+    }
+
+    /// Criteria of laws of another effect, up to one that follows the force as well as what is true: then the test does
+    /// not tell the effect from it, and no better fit can change that.
+    fn fitted(&self, world: &World, models: &[usize], own: f64) -> Option<Vec<(usize, f64)>> {
+        let rows = self.rows_with(world);
         let data = self.data(&rows);
-        let Some(assembly) = world.assembly(known) else { return f64::NAN };
-        let fitted = fit(assembly, data, &known.fitted.unit);
-        // What the recordings leave open may lie far from what the test asks of another model.
-        if is_true { fitted.criterion() } else { begun_anew(fitted, data).criterion() }
+        let mut found = Vec::new();
+        for model in models {
+            let known = &self.models[*model];
+            let mut fitted = fit(world.assembly(known)?, data, &known.fitted.unit);
+            if fitted.criterion() > own {
+                // What the recordings leave open may lie far from what the test asks of another model.
+                fitted = begun_anew(fitted, data);
+            }
+            let criterion = fitted.criterion();
+            found.push((*model, criterion));
+            if criterion <= own {
+                break;
+            }
+        }
+        Some(found)
     }
 
     /// The model named, and its force in N in a test.

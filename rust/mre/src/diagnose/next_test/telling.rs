@@ -1,8 +1,6 @@
 //! The test that tells most of what is in doubt: all are looked at to first order, the easiest limits first, and those
 //! that promise most closely.
 
-use std::collections::BTreeMap;
-
 use rayon::prelude::*;
 
 use super::bench::Bench;
@@ -31,34 +29,27 @@ struct Telling {
 /// The easiest test that tells enough, or the one that tells most; with what it shows besides of what is hidden.
 pub(super) fn to_tell(bench: &Bench, wider: &[Limits], hidden: &Hidden) -> Option<NextTest> {
     let mut all: Vec<Telling> = Vec::new();
-    let mut ahead: BTreeMap<usize, Vec<Telling>> = BTreeMap::new();
-    let tells = |glances: &[Telling]| glances.iter().any(|telling| telling.told.worth >= WORTH);
-    let mut levels = wider.len();
-    for level in std::iter::once(0).chain(hardest(wider)) {
-        let glances = glances(bench, wider, level);
-        let told = tells(&glances);
-        ahead.insert(level, glances);
-        if told {
-            break;
-        }
-        if ahead.len() > hardest(wider).len() {
-            // Neither the easiest nor the hardest tests tell anything: it is taken that none between them does.
-            levels = 1;
-        }
-    }
-    for level in 0..levels {
-        all.extend(ahead.remove(&level).unwrap_or_else(|| glances(bench, wider, level)));
-        while let Some(i) = most(&all, |told| told.certainty, ENOUGH) {
-            look(bench, wider, &mut all[i])?;
-            if all[i].told.certainty >= ENOUGH {
-                return proposed(bench, wider, hidden, &all, i);
+    let mut next = 0;
+    for last in std::iter::once(0).chain(hardest(wider)) {
+        let hardest = glances(bench, wider, last);
+        // Where not even these promise enough, none that is easier does.
+        let enough = hardest.iter().any(|telling| telling.told.certainty >= ENOUGH);
+        let easier = if enough { next..last } else { last..last };
+        for glances in easier.map(|level| glances(bench, wider, level)).chain([hardest]) {
+            all.extend(glances);
+            while let Some(i) = most(&all, |told| told.certainty, ENOUGH) {
+                look(bench, wider, &mut all[i])?;
+                if all[i].told.certainty >= ENOUGH {
+                    return proposed(bench, wider, hidden, &all, i);
+                }
             }
         }
+        if closely(&all).count() >= CLOSELY {
+            break;
+        }
+        next = last + 1;
     }
-    let known = |all: &[Telling]| {
-        let closely = all.iter().filter(|telling| telling.glance.is_some());
-        closely.map(|telling| telling.told.worth).fold(-WORTH, f64::max)
-    };
+    let known = |all: &[Telling]| closely(all).map(|(t, _)| t.told.worth).fold(-WORTH, f64::max);
     while let Some(i) = most(&all, |told| told.worth, known(&all) + WORTH) {
         look(bench, wider, &mut all[i])?;
     }
@@ -101,15 +92,19 @@ fn look(bench: &Bench, wider: &[Limits], telling: &mut Telling) -> Option<()> {
     Some(())
 }
 
+/// Tests that were looked at closely, each with its glance.
+fn closely(all: &[Telling]) -> impl Iterator<Item = (&Telling, &Told)> {
+    all.iter().filter_map(|telling| Some((telling, telling.glance.as_ref()?)))
+}
+
 /// The test, of those seen at a glance, that promises most, where that is so much at least; a kind that told less than
 /// its glance had said will again. `None` where enough were looked at closely.
 fn most(all: &[Telling], of: impl Fn(&Told) -> f64, least: f64) -> Option<usize> {
-    let closely = || all.iter().filter_map(|telling| Some((telling, telling.glance.as_ref()?)));
-    if closely().count() >= CLOSELY {
+    if closely(all).count() >= CLOSELY {
         return None;
     }
     let promise = |telling: &Telling| {
-        let same = closely().filter(|(known, _)| known.kind == telling.kind);
+        let same = closely(all).filter(|(known, _)| known.kind == telling.kind);
         let kept = same.map(|(known, glance)| of(&known.told) / of(glance).max(f64::MIN_POSITIVE));
         of(&telling.told) * kept.fold(1.0, f64::min)
     };
