@@ -73,8 +73,8 @@ def dragging(r: Recording) -> NDArray[np.float64]:
 
 
 def beside_the_middle(r: Recording) -> NDArray[np.float64]:
-    """A play of 0.2 mm to both sides of 1.1 mm, in which nothing is loaded."""
-    off = r.displacement - 1.1
+    """A play of 0.2 mm to both sides of 0.8 mm, in which the device is not moved."""
+    off = r.displacement - 0.8
     within = np.abs(off) <= 0.2
     seen = [8 * x + 10 * np.sinh(0.3 * x) for x in (r.displacement - np.clip(off, -0.2, 0.2), r.displacement)]
     return np.asarray(seen[0] - seen[1] - 0.4 * np.where(within, r.velocity, 0.0))
@@ -90,7 +90,7 @@ def rebound(r: Recording) -> NDArray[np.float64]:
     [
         (bristles, ("stribeck_friction", "LuGre"), {"F_c": 2, "r": 1, "v_s": 8, "z_y": 0.1}),
         (loose, ("backlash", "spring with a dead zone"), {"k_g": 2, "g": 0.3}),
-        (beside_the_middle, ("backlash", "dead zone off centre, without damping"), {"g": 0.2, "c": 1.1}),
+        (beside_the_middle, ("backlash", "dead zone off centre, without damping"), {"g": 0.2, "c": 0.8}),
         (dragging, ("backlash", "play of the spring"), {"g": 0.15}),
         (slider, ("coulomb_friction", "elastic slider"), {"F_c": 2, "z_y": 0.06}),
         (contact, ("end_stop", "both ends with damping"), {"k_c": 6, "c_c": 0.15, "g": 3}),

@@ -9,6 +9,7 @@ use super::columns::Columns;
 use super::in_series::InSeries;
 use super::layout::Assembly;
 use super::simulate::{PASSES, distance};
+use crate::effect::Flexibility;
 
 /// Share of a force, rms, by which two that agree differ.
 const AGREED: f64 = 1e-6;
@@ -18,7 +19,7 @@ pub(crate) struct OnAnother<'w> {
     pub(crate) assembly: Assembly<'w>,
     /// Shapes in their units.
     shapes: Vec<f64>,
-    /// Columns of the base there, as it is alone.
+    /// Columns of the base there: alone, or as it is seen where that does not follow the force.
     base: BaseColumns,
 }
 
@@ -56,11 +57,14 @@ impl<'w> OnAnother<'w> {
     /// Let effects see the force of the base alone in the last recording, and that of the device that follows.
     fn see(&mut self, alone: Vec<f64>, coefficients: &[f64]) {
         let last = self.last();
-        let flexibility = self.assembly.flexibility(&self.shapes);
+        let flexibility = self.flexibility();
         let recording = &self.assembly.campaign().recordings()[last];
         let whole = InSeries::first(recording, &alone, flexibility.unwrap_or_default());
         Arc::make_mut(&mut self.assembly.whole)[last] = whole;
         Arc::make_mut(&mut self.assembly.reference)[last] = alone;
+        if flexibility.is_none() {
+            self.base = self.seen();
+        }
         let own = self.assembly.of_the_device(coefficients);
         for _ in 0..PASSES {
             let force = self.columns().force(&own);
@@ -74,13 +78,22 @@ impl<'w> OnAnother<'w> {
 
     /// Columns of the device in the last recording.
     fn columns(&self) -> Columns {
+        let base = if self.flexibility().is_some() { self.seen() } else { self.base.clone() };
+        self.assembly.with_effects(self.last(), &self.shapes, base)
+    }
+
+    /// Columns of the base as effects let it see the last recording.
+    fn seen(&self) -> BaseColumns {
         let (assembly, last) = (&self.assembly, self.last());
-        let base = if assembly.sees_otherwise(last, &self.shapes) || assembly.asks_between() {
+        if assembly.sees_otherwise(last, &self.shapes) || assembly.asks_between() {
             assembly.base_seen(&[(last, &self.shapes)]).pop().unwrap_or_default()
         } else {
             self.base.clone()
-        };
-        assembly.with_effects(last, &self.shapes, base)
+        }
+    }
+
+    fn flexibility(&self) -> Option<Flexibility> {
+        self.assembly.flexibility(&self.shapes)
     }
 
     fn last(&self) -> usize {

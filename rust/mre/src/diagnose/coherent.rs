@@ -16,7 +16,8 @@ use crate::recording::Recording;
 const MOST: f64 = 0.5;
 /// each of so many cycles: slow noise follows a motion of fewer too.
 const MANY_CYCLES: usize = 5;
-/// Or where it is such a share in more stretches,
+/// Or where it is such a share in more stretches, or that above of higher orders: a narrow band of noise as large as the
+/// rest may be at a multiple of the motion by chance,
 const SOME: f64 = 0.2;
 /// each of so many cycles,
 const CYCLES: usize = 2;
@@ -58,9 +59,10 @@ fn beside_the_motion(residual: &[f64], motion: &[Vec<f64>; 2], recording: &Recor
         let (after, share) = without(before, motion, order, most);
         let in_halves =
             || order == 1 && each_has(2, MANY_CYCLES) && without(before, motion, order, 2).1 < 1.0 - MOST;
+        let least = if order == 1 { SOME } else { MOST };
         let beyond_chance = || {
-            let gain = predicted(before) - predicted(&after);
-            share < 1.0 - SOME && chi_square_tail(gain / CAUTION, 2 * most) < BY_CHANCE
+            let gain = || predicted(before) - predicted(&after);
+            share < 1.0 - least && chi_square_tail(gain() / CAUTION, 2 * most) < BY_CHANCE
         };
         if in_halves() || beyond_chance() {
             left = Some(after);
@@ -86,7 +88,7 @@ fn without(residual: &[f64], motion: &[Vec<f64>; 2], order: usize, count: usize)
     (left, after / before.max(f64::MIN_POSITIVE))
 }
 
-/// Two products of an order, beside each other and all of lower orders.
+/// Two products of an order, beside each other and all of lower orders; the square of a sine's velocity is in those.
 fn products(x: &[f64], v: &[f64], order: usize) -> Vec<Vec<f64>> {
     let mut found: Vec<Vec<f64>> = Vec::new();
     for power in 0..order as i32 {

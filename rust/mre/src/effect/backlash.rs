@@ -6,7 +6,8 @@
 //! | c | its middle | mm | half the largest stroke to either side |
 //!
 //! Reference: Nordin and Gutman, Automatica 38 (2002) 1633.
-//! Known limit: where g is small against all strokes only the jumps at reversals show it.
+//! Known limit: where g is small against all strokes only the jumps at reversals show it. The middle is sought on both sides
+//! of zero, not of the middle of a motion with an offset.
 
 use super::operators::each;
 use super::{About, Effect, Motion, Scene, Sizes, within};
@@ -21,9 +22,9 @@ pub(super) enum Backlash {
     RoundDeadZone,
     /// No force at all within the gap.
     FreeDeadZone,
-    /// No elastic force within a gap whose middle is elsewhere.
+    /// The spring is held in its middle within a gap that is elsewhere.
     OffCentre,
-    /// No force at all within it.
+    /// So is the whole device.
     FreeOffCentre,
     /// The device stays where it was left until the gap is crossed.
     Play,
@@ -41,7 +42,7 @@ const COUNT: i32 = 15;
 const GAPS: [f64; 4] = [0.01, 0.03, 0.08, 0.2];
 const MIDDLES: [f64; 4] = [-0.3, -0.1, 0.1, 0.3];
 
-const OFF_CENTRE: &str = "there is free play: beside the middle the device is not loaded";
+const OFF_CENTRE: &str = "there is free play: at a place beside the middle the device is not moved";
 
 /// Displacement beyond a gap of half width `g`.
 pub(super) fn beyond(x: f64, g: f64) -> f64 {
@@ -67,12 +68,6 @@ fn dragged(scene: &Scene, g: f64) -> Vec<f64> {
         };
         turned.max(x[i] - g).min(x[i] + g)
     })
-}
-
-impl Backlash {
-    fn is_off_centre(self) -> bool {
-        matches!(self, Self::OffCentre | Self::FreeOffCentre)
-    }
 }
 
 impl Effect for Backlash {
@@ -127,18 +122,21 @@ impl Effect for Backlash {
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
         let half = 0.5 * sizes.displacement;
         let gap = Parameter { smallest: 0.0, ..within("g", "mm", 0.0, half) };
-        if self.is_off_centre() { vec![gap, within("c", "mm", -half, half)] } else { vec![gap] }
+        match self {
+            Self::OffCentre | Self::FreeOffCentre => vec![gap, within("c", "mm", -half, half)],
+            _ => vec![gap],
+        }
     }
 
     fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
-        if self.is_off_centre() {
-            let of = |g: f64| MIDDLES.map(move |c| vec![g * sizes.displacement, c * sizes.displacement]);
-            return GAPS.into_iter().flat_map(of).collect();
-        }
+        let off_centre = |g: f64| MIDDLES.map(|c| vec![g * sizes.displacement, c * sizes.displacement]);
         let shares: Vec<f64> = match self {
+            Self::OffCentre | Self::FreeOffCentre => return GAPS.into_iter().flat_map(off_centre).collect(),
             Self::DeadZone | Self::RoundDeadZone => vec![0.003, 0.01, 0.03, 0.08, 0.16, 0.3],
             // One of twice the right size explains nothing, and the fit jumps from sample to sample.
-            _ => (0..COUNT).map(|k| SMALLEST * RATIO.powi(k)).collect(),
+            Self::FreeDeadZone | Self::Play | Self::SpringPlay => {
+                (0..COUNT).map(|k| SMALLEST * RATIO.powi(k)).collect()
+            }
         };
         shares.iter().map(|share| vec![share * sizes.displacement]).collect()
     }

@@ -95,7 +95,7 @@ impl<'b, 'a> Bench<'b, 'a> {
             let own = self.fitted_to_its_own(&worlds[t], t)?;
             let others: Vec<Vec<usize>> = self.beside(t).map(|member| few(t, member)).collect();
             let lacks = others.par_iter().map(|models| self.fitted(&worlds[t], models, own));
-            let lacks: Vec<Vec<(usize, f64)>> = lacks.collect::<Option<_>>()?;
+            let lacks: Vec<Vec<(usize, f64)>> = lacks.collect();
             let all = lacks.into_iter().flatten().chain([(self.truths[t].model, own)]);
             Some(all.map(|(model, criterion)| ((t, model), criterion)).collect::<Vec<_>>())
         });
@@ -165,13 +165,14 @@ impl<'b, 'a> Bench<'b, 'a> {
 
     /// Criteria of laws of another effect, up to one that follows the force as well as what is true: then the test does
     /// not tell the effect from it, and no better fit can change that.
-    fn fitted(&self, world: &World, models: &[usize], own: f64) -> Option<Vec<(usize, f64)>> {
+    fn fitted(&self, world: &World, models: &[usize], own: f64) -> Vec<(usize, f64)> {
         let rows = self.rows_with(world);
         let data = self.data(&rows);
         let mut found = Vec::new();
         for model in models {
             let known = &self.models[*model];
-            let mut fitted = fit(world.assembly(known)?, data, &known.fitted.unit);
+            let Some(assembly) = world.assembly(known) else { continue };
+            let mut fitted = fit(assembly, data, &known.fitted.unit);
             if fitted.criterion() > own {
                 // What the recordings leave open may lie far from what the test asks of another model.
                 fitted = begun_anew(fitted, data);
@@ -182,7 +183,7 @@ impl<'b, 'a> Bench<'b, 'a> {
                 break;
             }
         }
-        Some(found)
+        found
     }
 
     /// The model named, and its force in N in a test.

@@ -30,12 +30,12 @@ struct Telling {
 pub(super) fn to_tell(bench: &Bench, wider: &[Limits], hidden: &Hidden) -> Option<NextTest> {
     let mut all: Vec<Telling> = Vec::new();
     let mut next = 0;
-    for last in std::iter::once(0).chain(hardest(wider)) {
-        let hardest = glances(bench, wider, last);
+    'levels: for last in std::iter::once(0).chain(hardest(wider)) {
+        let these = glances(bench, wider, last);
         // Where not even these promise enough, none that is easier does.
-        let enough = hardest.iter().any(|telling| telling.told.certainty >= ENOUGH);
+        let enough = these.iter().any(|telling| telling.told.certainty >= ENOUGH);
         let easier = if enough { next..last } else { last..last };
-        for glances in easier.map(|level| glances(bench, wider, level)).chain([hardest]) {
+        for glances in easier.map(|level| glances(bench, wider, level)).chain([these]) {
             all.extend(glances);
             while let Some(i) = most(&all, |told| told.certainty, ENOUGH) {
                 look(bench, wider, &mut all[i])?;
@@ -43,9 +43,9 @@ pub(super) fn to_tell(bench: &Bench, wider: &[Limits], hidden: &Hidden) -> Optio
                     return proposed(bench, wider, hidden, &all, i);
                 }
             }
-        }
-        if closely(&all).count() >= CLOSELY {
-            break;
+            if closely(&all).count() >= CLOSELY {
+                break 'levels;
+            }
         }
         next = last + 1;
     }
