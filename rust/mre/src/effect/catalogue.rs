@@ -393,6 +393,7 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &FilterLag::Force,
     &FilterLag::Displacement,
     &FilterLag::Butterworth,
+    &FilterLag::Two,
     &Creep::Logarithmic,
     &Creep::Box,
     &Creep::Slow,
