@@ -19,8 +19,10 @@ pub(crate) struct OnAnother<'w> {
     pub(crate) assembly: Assembly<'w>,
     /// Shapes in their units.
     shapes: Vec<f64>,
-    /// Columns of the base there: alone, or as it is seen where that does not follow the force.
+    /// Columns of the base alone there.
     base: BaseColumns,
+    /// The same as effects let it see the recording, where that does not follow the force.
+    seen: Option<BaseColumns>,
 }
 
 impl<'w> OnAnother<'w> {
@@ -40,7 +42,7 @@ impl<'w> OnAnother<'w> {
             let of_base =
                 |alone: &Assembly| alone.with_effects(last, &shapes[..alone.base_shapes()], base.clone());
             let alone = assembly.alone(last, coefficients, of_base);
-            let mut model = Self { assembly, shapes, base };
+            let mut model = Self { assembly, shapes, base, seen: None };
             model.see(alone, coefficients);
             model
         })
@@ -63,7 +65,7 @@ impl<'w> OnAnother<'w> {
         Arc::make_mut(&mut self.assembly.whole)[last] = whole;
         Arc::make_mut(&mut self.assembly.reference)[last] = alone;
         if flexibility.is_none() {
-            self.base = self.seen();
+            self.seen = Some(self.as_seen());
         }
         let own = self.assembly.of_the_device(coefficients);
         for _ in 0..PASSES {
@@ -78,12 +80,12 @@ impl<'w> OnAnother<'w> {
 
     /// Columns of the device in the last recording.
     fn columns(&self) -> Columns {
-        let base = if self.flexibility().is_some() { self.seen() } else { self.base.clone() };
+        let base = self.seen.clone().unwrap_or_else(|| self.as_seen());
         self.assembly.with_effects(self.last(), &self.shapes, base)
     }
 
     /// Columns of the base as effects let it see the last recording.
-    fn seen(&self) -> BaseColumns {
+    fn as_seen(&self) -> BaseColumns {
         let (assembly, last) = (&self.assembly, self.last());
         if assembly.sees_otherwise(last, &self.shapes) || assembly.asks_between() {
             assembly.base_seen(&[(last, &self.shapes)]).pop().unwrap_or_default()

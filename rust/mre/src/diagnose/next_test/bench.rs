@@ -91,16 +91,15 @@ impl<'b, 'a> Bench<'b, 'a> {
         };
         let worlds: Vec<World> =
             (0..self.truths.len()).map(|t| self.world(test, Some(test.force(t)))).collect::<Option<_>>()?;
-        let found = (0..worlds.len()).into_par_iter().map(|t| {
-            let own = self.fitted_to_its_own(&worlds[t], t)?;
+        let found = (0..worlds.len()).into_par_iter().flat_map(|t| {
+            let own = self.fitted_to_its_own(&worlds[t], t);
             let others: Vec<Vec<usize>> = self.beside(t).map(|member| few(t, member)).collect();
             let lacks = others.par_iter().map(|models| self.fitted(&worlds[t], models, own));
             let lacks: Vec<Vec<(usize, f64)>> = lacks.collect();
             let all = lacks.into_iter().flatten().chain([(self.truths[t].model, own)]);
-            Some(all.map(|(model, criterion)| ((t, model), criterion)).collect::<Vec<_>>())
+            all.map(|(model, criterion)| ((t, model), criterion)).collect::<Vec<_>>()
         });
-        let found: Vec<Vec<(Job, f64)>> = found.collect::<Option<_>>()?;
-        self.monitor.whole(self.told(&found.into_iter().flatten().collect()))
+        self.monitor.whole(self.told(&found.collect()))
     }
 
     /// Criteria to first order of models where truths show their forces.
@@ -158,9 +157,9 @@ impl<'b, 'a> Bench<'b, 'a> {
     }
 
     /// Criterion of a truth where it shows its force.
-    fn fitted_to_its_own(&self, world: &World, t: usize) -> Option<f64> {
+    fn fitted_to_its_own(&self, world: &World, t: usize) -> f64 {
         let (rows, known) = (self.rows_with(world), &self.truths[t].candidate);
-        Some(fit(world.assembly(known)?, self.data(&rows), &known.fitted.unit).criterion())
+        fit(world.assembly(known), self.data(&rows), &known.fitted.unit).criterion()
     }
 
     /// Criteria of laws of another effect, up to one that follows the force as well as what is true: then the test does
@@ -171,8 +170,7 @@ impl<'b, 'a> Bench<'b, 'a> {
         let mut found = Vec::new();
         for model in models {
             let known = &self.models[*model];
-            let Some(assembly) = world.assembly(known) else { continue };
-            let mut fitted = fit(assembly, data, &known.fitted.unit);
+            let mut fitted = fit(world.assembly(known), data, &known.fitted.unit);
             if fitted.criterion() > own {
                 // What the recordings leave open may lie far from what the test asks of another model.
                 fitted = begun_anew(fitted, data);

@@ -32,7 +32,7 @@ impl<'h> Hidden<'h> {
         let world = bench.world(test, Some(force))?;
         let rows = bench.rows_with(&world);
         let data = bench.data(&rows);
-        let assembly = world.assembly(model)?;
+        let assembly = world.assembly(model);
         let fitted = refine(&assembly, data, &model.fitted.unit);
         let null = Null::new(&assembly, data, &fitted.unit)?;
         let laws = self.settings.laws.iter().filter(|e| self.ids.contains(&e.about().effect));

@@ -29,28 +29,45 @@ struct Telling {
 /// The easiest test that tells enough, or the one that tells most; with what it shows besides of what is hidden.
 pub(super) fn to_tell(bench: &Bench, wider: &[Limits], hidden: &Hidden) -> Option<NextTest> {
     let mut all: Vec<Telling> = Vec::new();
+    look_until_enough(bench, wider, &mut all)?;
+    let enough = |telling: &Telling| telling.glance.is_some() && telling.told.certainty >= ENOUGH;
+    let best = match all.iter().position(enough) {
+        Some(found) => found,
+        None => tells_most(bench, wider, &mut all)?,
+    };
+    proposed(bench, wider, hidden, &all, best)
+}
+
+/// Looks at tests, the easiest first, until one tells enough or as many as may be were looked at closely; `None` where that
+/// is broken off.
+fn look_until_enough(bench: &Bench, wider: &[Limits], all: &mut Vec<Telling>) -> Option<()> {
     let mut next = 0;
-    'levels: for last in std::iter::once(0).chain(hardest(wider)) {
+    for last in std::iter::once(0).chain(hardest(wider)) {
         let these = glances(bench, wider, last);
         // Where not even these promise enough, none that is easier does.
         let enough = these.iter().any(|telling| telling.told.certainty >= ENOUGH);
         let easier = if enough { next..last } else { last..last };
         for glances in easier.map(|level| glances(bench, wider, level)).chain([these]) {
             all.extend(glances);
-            while let Some(i) = most(&all, |told| told.certainty, ENOUGH) {
+            while let Some(i) = most(all, |told| told.certainty, ENOUGH) {
                 look(bench, wider, &mut all[i])?;
                 if all[i].told.certainty >= ENOUGH {
-                    return proposed(bench, wider, hidden, &all, i);
+                    return Some(());
                 }
             }
-            if closely(&all).count() >= CLOSELY {
-                break 'levels;
+            if closely(all).count() >= CLOSELY {
+                return Some(());
             }
         }
         next = last + 1;
     }
+    Some(())
+}
+
+/// The test that tells most of those that were looked at closely, and of those that promise more.
+fn tells_most(bench: &Bench, wider: &[Limits], all: &mut [Telling]) -> Option<usize> {
     let known = |all: &[Telling]| closely(all).map(|(t, _)| t.told.worth).fold(-WORTH, f64::max);
-    while let Some(i) = most(&all, |told| told.worth, known(&all) + WORTH) {
+    while let Some(i) = most(all, |told| told.worth, known(all) + WORTH) {
         look(bench, wider, &mut all[i])?;
     }
     let mut best: Option<usize> = None;
@@ -61,7 +78,7 @@ pub(super) fn to_tell(bench: &Bench, wider: &[Limits], hidden: &Hidden) -> Optio
         });
         best = easier.or(Some(i));
     }
-    proposed(bench, wider, hidden, &all, best?)
+    best
 }
 
 /// The longest of the slowest tests, of the fastest, and of those of the highest frequency.

@@ -85,8 +85,8 @@ impl World {
     }
 
     /// A model of the known recordings on these.
-    pub(super) fn assembly<'w>(&'w self, of: &Candidate) -> Option<Assembly<'w>> {
-        self.assemblies(&[of]).pop()
+    pub(super) fn assembly<'w>(&'w self, of: &Candidate) -> Assembly<'w> {
+        self.assemblies(&[of]).remove(0)
     }
 
     /// Several of them, which is cheaper than one by one.
