@@ -181,6 +181,11 @@ pub const CATALOGUE: &[&dyn Effect] = &[
         "c -> c (1 - s T/T_r), dT/dt = v^2 - T/tau",
     ),
     &OnPart::dashpot(
+        &Thermal { by: Work::Viscous, exponential: true, whole: false },
+        "viscous heat, exponential, damping",
+        "c -> c exp(-s T/T_r), dT/dt = v^2 - T/tau",
+    ),
+    &OnPart::dashpot(
         &Adiabatic { by: Work::Net, whole: false },
         "dissipated power, no cooling, damping",
         "c -> c (1 - s T/T_max), T the largest integral of F v so far",
