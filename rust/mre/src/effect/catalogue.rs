@@ -151,6 +151,11 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &OnPart::springs(&Adiabatic { by: Work::Passed, whole: false }, "no cooling, spring"),
     &OnPart::springs(&Adiabatic { by: Work::Net, whole: false }, "dissipated power, no cooling, spring"),
     &OnPart::hysteretic(
+        &Thermal { by: Work::Passed, exponential: true, whole: false },
+        "exponential, hysteretic force",
+        "k_w -> k_w exp(-s T/T_r), dT/dt = |F v| - T/tau",
+    ),
+    &OnPart::hysteretic(
         &Thermal { by: Work::Net, exponential: false, whole: false },
         "dissipated power, hysteretic force",
         "k_w -> k_w (1 - s T/T_r), dT/dt = F v - T/tau",
