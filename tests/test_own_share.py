@@ -44,3 +44,17 @@ def test_heat_of_the_dashpot_alone_is_named() -> None:
     assert "thermal_softening" in {effect.id, *effect.indistinguishable_from}
     assert effect.law.endswith(", damping")
     assert effect.equation.startswith("c -> c")
+
+
+def test_oil_that_thins_is_heat_of_the_dashpot() -> None:
+    def thinned(r: mre_core.Recording) -> mre_core.Recording:
+        kept = np.exp(-0.3 * temperature(r.time, 0.4 * r.velocity**2))
+        return with_series(r, force=np.asarray(r.force) + (kept - 1) * 0.4 * r.velocity)
+
+    found = mre_core.diagnose([thinned(r) for r in campaign(0.0)], "sinh", seed=1)
+    assert (found.verdict, [e.law for e in found.effects]) == (
+        "missing_physics",
+        ["viscous heat, exponential, damping"],
+    )
+    assert found.effects[0].form == "exact"
+    assert found.effects[0].parameters["tau"].value == pytest.approx(COOLING, rel=0.2)
