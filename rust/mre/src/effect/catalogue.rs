@@ -403,7 +403,6 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &FilterLag::Force,
     &FilterLag::Displacement,
     &FilterLag::Butterworth,
-    &FilterLag::Two,
     &Creep::Logarithmic,
     &Creep::Box,
     &Creep::Slow,
