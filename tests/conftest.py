@@ -1,6 +1,7 @@
 """Fixtures."""
 
 import os
+import signal
 from pathlib import Path
 
 import pytest
@@ -10,6 +11,9 @@ from rig import SINH, Cli, made_of, motion, record, write_csv
 if "PYTEST_XDIST_WORKER" in os.environ:
     # The workers have the cores among them.
     os.environ.setdefault("RAYON_NUM_THREADS", "1")
+if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
+    # So a shell starts what runs in the background, and it is inherited.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture(scope="session")
