@@ -12,6 +12,7 @@ use super::next_test::Rival;
 use super::null::Null;
 use super::screen::Score;
 use super::search::{Named, REFITTED, Search};
+use crate::effect::About;
 
 /// A rival that leaves less than this much more (in squared standard deviations, a parameter's price
 /// included) cannot be told apart: the odds against it are below 150 to 1.
@@ -51,15 +52,30 @@ pub(super) fn rivals<'a>(
     let unit = &without.fitted.unit;
     let scored = scores(&without.assembly, data, unit, search.settings);
     let own = named.fitted.criterion();
-    let other = |model: Candidate<'a>| {
-        let about = model.assembly.effects().last()?.about();
-        (about != known).then_some(Rival { effect: about.effect, place, model })
-    };
-    let best = candidates(&without.assembly, data, unit, &scored, REFITTED);
-    let mut found: Vec<Rival> = best.into_iter().filter_map(other).collect();
+    let mut found = candidates(&without.assembly, data, unit, &scored, REFITTED);
+    let doubted = doubted(&found, &scored, own + APART);
+    let others: Vec<&Score> = scored
+        .iter()
+        .filter(|score| {
+            let about = score.effect.about();
+            let in_doubt = about.effect == known.effect || doubted.contains(&about.effect);
+            in_doubt && about != known && found.iter().all(|model| law(model) != Some(about))
+        })
+        .collect();
+    let null = (!others.is_empty()).then(|| Null::new(&without.assembly, data, unit)).flatten();
+    if let Some(null) = null {
+        let starts: Vec<Held> = others.into_par_iter().map(|score| null.held(score)).collect();
+        drop(null);
+        found.par_extend(
+            starts
+                .into_par_iter()
+                .map(|held| joint(&without.assembly, data, unit, held.score.effect, &held.shape)),
+        );
+    }
+    found.sort_by(|a, b| a.criterion().total_cmp(&b.criterion()));
     let within = |far: f64| {
-        let near = found.iter().filter(move |r| r.model.criterion() <= own + far && r.effect != known.effect);
-        near.map(|r| r.effect)
+        let near = found.iter().filter(move |model| model.criterion() <= own + far);
+        near.filter_map(Candidate::added).filter(|effect| *effect != known.effect)
     };
     let mut close: Vec<&'static str> = Vec::new();
     for effect in within(APART) {
@@ -74,35 +90,37 @@ pub(super) fn rivals<'a>(
             effects.push(effect);
         }
     }
-    found.retain(|rival| rival.effect == known.effect || close.contains(&rival.effect));
-    // The other laws of the same effects: one of them may be what no test tells from the effect named.
-    let law = |rival: &Rival| rival.model.assembly.effects().last().map(|e| e.about().law);
-    let others: Vec<&Score> = scored
-        .iter()
-        .filter(|score| {
-            let about = score.effect.about();
-            let mut alike = found.iter().filter(|rival| rival.effect == about.effect);
-            let doubted = about.effect == known.effect || close.contains(&about.effect);
-            doubted && about != known && alike.all(|rival| law(rival) != Some(about.law))
-        })
-        .collect();
-    let null = (!others.is_empty()).then(|| Null::new(&without.assembly, data, unit)).flatten();
-    if let Some(null) = null {
-        let starts: Vec<Held> = others.into_par_iter().map(|score| null.held(score)).collect();
-        drop(null);
-        let others: Vec<Candidate> = starts
-            .into_par_iter()
-            .map(|held| joint(&without.assembly, data, unit, held.score.effect, &held.shape))
-            .collect();
-        found.extend(others.into_iter().filter_map(other));
-    }
-    found.sort_by(|a, b| a.model.criterion().total_cmp(&b.model.criterion()));
     let mut laws: BTreeMap<&str, usize> = BTreeMap::new();
-    found.retain(|rival| {
-        let count = laws.entry(rival.effect).or_default();
+    let mut rivals: Vec<Rival> = Vec::new();
+    for model in found {
+        let Some(About { effect, .. }) = law(&model).filter(|about| *about != known) else { continue };
+        let count = laws.entry(effect).or_default();
         *count += 1;
-        *count <= LAWS
-    });
-    let (rivals, laws) = found.into_iter().partition(|rival| rival.effect != known.effect);
+        if *count <= LAWS && (effect == known.effect || close.contains(&effect)) {
+            rivals.push(Rival { effect, place, model });
+        }
+    }
+    let (rivals, laws) = rivals.into_iter().partition(|rival| rival.effect != known.effect);
     Alternatives { effects, rivals, laws }
+}
+
+/// What is known of the law that a model has in the place.
+fn law(model: &Candidate) -> Option<About> {
+    model.assembly.effects().last().map(|effect| effect.about())
+}
+
+/// Effects that may come within a criterion: some law of theirs would, had it no more parameters than the plainest. A
+/// larger law that takes the place of a plain one among those that are fitted leaves no more than that, at a higher price.
+fn doubted(found: &[Candidate], scored: &[Score], limit: f64) -> Vec<&'static str> {
+    let spared = |model: &Candidate| {
+        let of_effect = scored.iter().filter(|score| Some(score.effect.about().effect) == model.added());
+        let fewest = of_effect.map(Score::parameters).min();
+        let own = scored.iter().find(|score| Some(score.effect.about()) == law(model)).map(Score::parameters);
+        own.zip(fewest).map_or(0, |(own, fewest)| own - fewest)
+    };
+    let could = |model: &&Candidate| {
+        let price = (model.fitted.rows as f64).ln();
+        model.criterion() - price * spared(model) as f64 <= limit
+    };
+    found.iter().filter(could).filter_map(Candidate::added).collect()
 }

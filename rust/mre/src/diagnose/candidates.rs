@@ -163,7 +163,7 @@ fn promising<'s>(null: &Null, scores: &'s [Score], most: usize) -> Vec<Held<'s>>
         if held.score.effect.coefficients().is_empty() { held.gain.max(held.score.gain) } else { held.gain }
     };
     let price = (null.point.fitted.rows as f64).ln();
-    let size = |held: &Held| held.score.freedom + held.shape.len();
+    let size = |held: &Held| held.score.parameters();
     let paid = |held: &Held| gain(held) - price * size(held) as f64;
     refined.sort_by(|a, b| paid(b).total_cmp(&paid(a)));
     let mut kept: Vec<Held> = Vec::new();

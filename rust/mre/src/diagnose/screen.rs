@@ -40,6 +40,13 @@ pub struct Score {
     pub tests: f64,
 }
 
+impl Score {
+    /// Parameters that the law takes.
+    pub(super) fn parameters(&self) -> usize {
+        self.freedom + self.start.len()
+    }
+}
+
 impl Null<'_> {
     /// Score test of one law.
     pub(super) fn score(&self, effect: &'static dyn Effect, seed: u64) -> Option<Score> {

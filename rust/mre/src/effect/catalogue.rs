@@ -403,6 +403,7 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &FilterLag::Force,
     &FilterLag::Displacement,
     &FilterLag::Butterworth,
+    &FilterLag::Two,
     &Creep::Logarithmic,
     &Creep::Box,
     &Creep::Slow,

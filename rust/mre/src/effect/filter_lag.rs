@@ -2,7 +2,7 @@
 //!
 //! | symbol | meaning | unit | range |
 //! |---|---|---|---|
-//! | T | time constant | s | 0.1 ms to 50 ms |
+//! | T, `T_2` | time constants | s | 0.1 ms to 50 ms |
 //! | `f_c` | corner frequency of a Butterworth filter | Hz | 3 to 2000 |
 //!
 //! Exact for the cubic spline through evenly spaced samples; behind a hysteretic base model through values halfway between
@@ -15,7 +15,7 @@ use std::f64::consts::{SQRT_2, TAU};
 
 use nalgebra::Complex;
 
-use super::{About, Effect, Motion, Scene, Sizes, order_within};
+use super::{About, Effect, Motion, Scene, Sizes, ideal_below, order_within};
 use crate::kernel::relaxation::Step;
 use crate::kernel::spline::second_differences;
 use crate::parameter::Parameter;
@@ -25,6 +25,8 @@ use crate::parameter::Parameter;
 pub(super) enum FilterLag {
     /// The force, by a first-order lag.
     Force,
+    /// The force, by two first-order lags in a row.
+    Two,
     /// The displacement, by a first-order lag.
     Displacement,
     /// The force, by a second-order Butterworth filter.
@@ -63,6 +65,7 @@ impl FilterLag {
     fn measured(self, step: f64, shape: &[f64], force: &[f64]) -> Option<Vec<f64>> {
         match self {
             Self::Force => Some(first_order(step, force, shape[0])),
+            Self::Two => Some(first_order(step, &first_order(step, force, shape[0]), shape[1])),
             Self::Displacement => None,
             Self::Butterworth => Some(butterworth(step, force, shape[0])),
         }
@@ -81,6 +84,11 @@ impl Effect for FilterLag {
         };
         match self {
             Self::Force => force,
+            Self::Two => About {
+                law: "force, two of first order",
+                equation: "T_2 dF_measured/dt + F_measured = F_1, T dF_1/dt + F_1 = F",
+                ..force
+            },
             Self::Displacement => About {
                 law: "displacement, first order",
                 plain: "a low-pass filter smooths and delays the measured displacement",
@@ -97,8 +105,10 @@ impl Effect for FilterLag {
     }
 
     fn shape(&self, _: &Sizes) -> Vec<Parameter> {
+        let lag = |name| order_within(name, "s", 1e-4, 0.05);
         match self {
-            Self::Force | Self::Displacement => vec![order_within("T", "s", 1e-4, 0.05)],
+            Self::Force | Self::Displacement => vec![lag("T")],
+            Self::Two => vec![lag("T"), ideal_below(lag("T_2"))],
             Self::Butterworth => vec![order_within("f_c", "Hz", 3.0, 2000.0)],
         }
     }
@@ -106,6 +116,7 @@ impl Effect for FilterLag {
     fn starts(&self, _: &Sizes) -> Vec<Vec<f64>> {
         match self {
             Self::Force | Self::Displacement => vec![vec![0.0005], vec![0.002], vec![0.008], vec![0.025]],
+            Self::Two => vec![vec![0.002, 0.0005], vec![0.008, 0.002], vec![0.02, 0.008]],
             Self::Butterworth => vec![vec![6.0], vec![15.0], vec![40.0], vec![120.0]],
         }
     }

@@ -26,6 +26,12 @@ proptest! {
         let (sin, cos) = harmonic(&stage, &first.unwrap(), f, 2.0);
         close(sin.hypot(cos), 1.0 / (1.0 + ratio * ratio).sqrt(), 5e-3);
         prop_assert!((cos.atan2(sin) + ratio.atan()).abs() < 5e-3);
+        let lags = [lag, 0.5 * lag];
+        let two = law("filter_lag", "force, two of first order").through(&scene, &lags, scene.displacement);
+        let (sin, cos) = harmonic(&stage, &two.unwrap(), f, 2.0);
+        close(sin.hypot(cos), 1.0 / ((1.0 + ratio * ratio) * (1.0 + 0.25 * ratio * ratio)).sqrt(), 5e-3);
+        let behind = (cos.atan2(sin) + ratio.atan() + (0.5 * ratio).atan()).rem_euclid(TAU);
+        prop_assert!(behind.min(TAU - behind) < 5e-3);
         let second = law("filter_lag", "force, Butterworth").through(&scene, &[corner], scene.displacement);
         let (sin, cos) = harmonic(&stage, &second.unwrap(), f, 2.0);
         close(sin.hypot(cos), 1.0 / (1.0 + ratio.powi(4)).sqrt(), 5e-3);
@@ -37,8 +43,13 @@ fn a_constant_force_passes_every_filter() {
     let stage = Stage::sine(1.0, 1.0, 2.0);
     let scene = stage.scene();
     let constant = vec![7.0; scene.len()];
-    for (name, shape) in [("force, first order", 0.01), ("force, Butterworth", 20.0)] {
-        let passed = law("filter_lag", name).through(&scene, &[shape], &constant).unwrap();
+    let lags = [0.01, 0.004];
+    for (name, shape) in [
+        ("force, first order", &lags[..1]),
+        ("force, two of first order", &lags),
+        ("force, Butterworth", &[20.0]),
+    ] {
+        let passed = law("filter_lag", name).through(&scene, shape, &constant).unwrap();
         assert!(passed.iter().all(|f| (f - 7.0).abs() < 1e-9));
     }
 }
