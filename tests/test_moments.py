@@ -64,6 +64,27 @@ print(signal.getsignal(signal.SIGTERM) is signal.SIG_DFL)
     assert (run.returncode, run.stdout, run.stderr) == (0, "True\nTrue\nTrue\n", "")
 
 
+def test_a_signal_that_falls_into_a_finalizer_is_raised_after_it() -> None:
+    code = """
+import os, signal, time, weakref
+from mre_core.interruption import Interruptions
+class Thing: pass
+signal.signal(signal.SIGINT, signal.default_int_handler)
+with Interruptions():
+    for number in (signal.SIGINT, signal.SIGTERM):
+        thing = Thing()
+        watch = weakref.ref(thing, lambda _: os.kill(os.getpid(), number))
+        try:
+            del thing
+            time.sleep(5)
+            print("not raised")
+        except KeyboardInterrupt:
+            print("raised")
+"""
+    run = run_script(code)
+    assert (run.returncode, run.stdout, run.stderr) == (0, "raised\nraised\n", "")
+
+
 def test_what_is_moved_is_moved_together(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     import os
 

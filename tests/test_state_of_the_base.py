@@ -1,4 +1,4 @@
-"""Laws of the state of a Bouc-Wen base itself: pinching by Baber and Noori, wear by Baber and Wen."""
+"""Laws of the state of a Bouc-Wen base: pinching (Baber and Noori), wear (Baber and Wen), yield by the current."""
 
 import mre_core
 import numpy as np
@@ -20,11 +20,19 @@ def motion(amplitude: float, frequency: float) -> tuple[Array, Array, Array]:
 
 
 def state(
-    time: Array, x: Array, v: Array, *, strength: float = 0, stiffness: float = 0, slip: str = ""
+    time: Array,
+    x: Array,
+    v: Array,
+    *,
+    strength: float = 0,
+    stiffness: float = 0,
+    slip: str = "",
+    pace: Array | None = None,
 ) -> Array:
     """The normalised hysteretic variable, by Euler's method halfway between fine samples."""
     w, dissipated = 0.0, 0.0
     found = np.zeros_like(time)
+    rho = RHO * (np.ones_like(time) if pace is None else pace)
     for i in range(1, len(time)):
         velocity, place = 0.5 * (v[i] + v[i - 1]), 0.5 * (x[i] + x[i - 1])
         nu, eta, share = 1 + strength * dissipated, 1 + stiffness * dissipated, 1.0
@@ -34,7 +42,7 @@ def state(
             share = 1 - 0.5 * np.exp(-((place / 1.5) ** 2))
         power = abs(w) ** N
         turn = SIGMA * (abs(velocity) * np.sign(w) - velocity) + velocity
-        step = (time[i] - time[i - 1]) * RHO * share * (velocity - nu * power * turn) / eta
+        step = (time[i] - time[i - 1]) * rho[i] * share * (velocity - nu * power * turn) / eta
         dissipated += (w + 0.5 * step) * (x[i] - x[i - 1])
         w += step
         found[i] = w
@@ -55,6 +63,30 @@ def campaign(strength: float = 0, stiffness: float = 0, slip: str = "") -> list[
             mre_core.Recording(time[pick], x[pick], force, velocity=v[pick], current=1.0, name=f"r{k}")
         )
     return found
+
+
+def under_currents(ratio: float) -> list[mre_core.Recording]:
+    """The same under a current between 0 and 1 A: rho at the highest is that at the lowest times a ratio."""
+    rng = np.random.default_rng(8)
+    found = []
+    for k, (amplitude, frequency) in enumerate([(8, 0.5), (6, 1), (4, 2)]):
+        time, x, v = motion(amplitude, frequency)
+        current = 0.5 - 0.5 * np.cos(1.9 * time + k)
+        w = state(time, x, v, pace=1 + (ratio - 1) * current)
+        force = (SPRING * x + DASHPOT * v + (1 + 0.5 * current) * YIELD * w)[::FINE]
+        force += 0.01 * np.sqrt(np.mean(force**2)) * rng.standard_normal(len(force))
+        time, x, v, current = (series[::FINE] for series in (time, x, v, current))
+        found.append(mre_core.Recording(time, x, force, velocity=v, current=current, name=f"r{k}"))
+    return found
+
+
+@pytest.mark.parametrize("ratio", [0.4, 1.6])
+def test_a_yield_that_follows_the_current_is_found(ratio: float) -> None:
+    found = mre_core.diagnose(under_currents(ratio), "bouc_wen", seed=1)
+    assert found.verdict == "missing_physics"
+    named = [(e.id, e.law, e.form) for e in found.effects]
+    assert named == [("field_dependence", "yield displacement of the state", "exact")]
+    assert found.effects[0].parameters["r"].value == pytest.approx(ratio, rel=0.1)
 
 
 @pytest.mark.parametrize(

@@ -1,9 +1,10 @@
 """Ctrl-C and SIGTERM stop a command in the same way, and neither in the midst of what has to be whole."""
 
+import _thread
 import signal
 import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType
 from typing import Any, Self
@@ -12,20 +13,22 @@ _SIGNALS = (signal.SIGINT, signal.SIGTERM)
 _AGAIN = getattr(signal, "SIGALRM", None)
 _OURS = __name__.partition(".")[0]
 _SOON = 0.02
-"""Seconds after which an interruption that fell into an import is raised again."""
+"""Seconds after which an interruption that fell where nothing can be raised is raised again."""
 
 
 class Interruptions:
     """Let Ctrl-C and SIGTERM both raise KeyboardInterrupt in the main thread, and remember that one came.
 
     One that falls into the import of another package waits for its end, where the system has timers: such an
-    import swallows it, or lets it out as another error. Modules of this package pass it on at once.
+    import swallows it, or lets it out as another error. Modules of this package pass it on at once. One that
+    falls into a finalizer, which raises nothing, comes again right after.
     """
 
     def __init__(self) -> None:
         self.came = False
         self._before: dict[signal.Signals, Any] = {}
         self._outside: FrameType | None = None
+        self._unraisable: Callable[[sys.UnraisableHookArgs], Any] | None = None
 
     def __enter__(self) -> Self:
         self._outside = sys._getframe(1)  # which may itself belong to an import
@@ -36,6 +39,7 @@ class Interruptions:
                     self._before[number] = signal.signal(number, self._interrupt)
             if _AGAIN is not None:
                 self._before[_AGAIN] = signal.signal(_AGAIN, self._interrupt)
+            self._unraisable, sys.unraisablehook = sys.unraisablehook, self._swallowed
         return self
 
     def __exit__(self, *error: object) -> None:
@@ -43,12 +47,20 @@ class Interruptions:
             signal.setitimer(signal.ITIMER_REAL, 0)
         for number, handler in self._before.items():
             signal.signal(number, handler)
+        if self._unraisable is not None:
+            sys.unraisablehook = self._unraisable
         self._outside = None
+
+    def _swallowed(self, left: "sys.UnraisableHookArgs") -> None:
+        if issubclass(left.exc_type, KeyboardInterrupt):
+            _again()
+        elif self._unraisable is not None:
+            self._unraisable(left)
 
     def _interrupt(self, number: int, frame: FrameType | None) -> None:
         self.came = True
         if _AGAIN in self._before and self._importing(frame):
-            signal.setitimer(signal.ITIMER_REAL, _SOON)
+            _again()
         else:
             raise KeyboardInterrupt
 
@@ -63,6 +75,14 @@ class Interruptions:
                 others = str(frame.f_globals.get("__name__")).partition(".")[0] != _OURS
             frame = frame.f_back
         return False
+
+
+def _again() -> None:
+    """Interrupt once more, soon where the system has timers."""
+    if _AGAIN is not None:
+        signal.setitimer(signal.ITIMER_REAL, _SOON)
+    else:
+        _thread.interrupt_main()
 
 
 @contextmanager

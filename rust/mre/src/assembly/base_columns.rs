@@ -147,8 +147,8 @@ impl Assembly<'_> {
                 (scene.displacement, scene.velocity) = (&so_far.displacement, &so_far.velocity);
             }
             current = effect.current(&scene, shape).or(current);
+            state = state.into_iter().chain(effect.state_change(scene.sizes, shape)).reduce(StateChange::and);
             motion = effect.motion(&scene, shape).or(so_far);
-            state = state.into_iter().chain(effect.state_change(shape)).reduce(StateChange::and);
         }
         Otherwise { motion, current, state }
     }

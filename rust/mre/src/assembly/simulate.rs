@@ -129,7 +129,7 @@ fn pass(source: Source, additions: &[Addition], recording: &Recording, scene: &S
             );
             seen = seen.seen_with(x, v, current);
         }
-        seen = seen.with_state_changed(effect.state_change(shape));
+        seen = seen.with_state_changed(effect.state_change(scene.sizes, shape));
     }
     let mut force = vec![0.0; recording.len()];
     for (part, column) in source.parts(&seen)? {

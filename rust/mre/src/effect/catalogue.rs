@@ -15,6 +15,7 @@ use super::drift::Drift;
 use super::end_stop::EndStop;
 use super::field_dependence::{FieldDependence, Of};
 use super::field_lag::FieldLag;
+use super::field_yield::FieldYield;
 use super::filter_lag::FilterLag;
 use super::fractional::Fractional;
 use super::hysteresis::Hysteresis;
@@ -432,6 +433,7 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &FieldDependence::ScaledSaturating(Of::Stiffness),
     &FieldDependence::ScaledSaturating(Of::Damping),
     &FieldDependence::ScaledSaturating(Of::Whole),
+    &FieldYield,
     &OnPart::springs(&FieldDependence::Scaled(Of::Stiffness), "spring scaled"),
     &OnPart::springs(&FieldDependence::ScaledSaturating(Of::Stiffness), "spring scaled, saturating"),
 ];

@@ -23,6 +23,7 @@ mod end_stop;
 mod factors;
 mod field_dependence;
 mod field_lag;
+mod field_yield;
 mod filter_lag;
 mod flexibility;
 mod fractional;
@@ -56,7 +57,7 @@ mod wearing;
 mod with_current;
 mod work;
 
-pub use crate::kernel::state_change::{Slip, StateChange, Wear};
+pub use crate::kernel::state_change::{Pace, Slip, StateChange, Wear};
 pub use catalogue::{CATALOGUE, named};
 pub(crate) use drift::{DRIFT, MEAN};
 pub use factors::{Factors, Stored};
@@ -196,8 +197,8 @@ pub trait Effect: Send + Sync {
     }
 
     /// What is changed of the law of the hysteretic state of the base model.
-    fn state_change(&self, shape: &[f64]) -> Option<StateChange> {
-        let _ = shape;
+    fn state_change(&self, sizes: &Sizes, shape: &[f64]) -> Option<StateChange> {
+        let _ = (sizes, shape);
         None
     }
 

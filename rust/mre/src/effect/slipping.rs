@@ -65,7 +65,7 @@ impl Effect for Slipping {
         }
     }
 
-    fn state_change(&self, shape: &[f64]) -> Option<StateChange> {
+    fn state_change(&self, _: &Sizes, shape: &[f64]) -> Option<StateChange> {
         let slip = match self {
             Self::ByForce => Slip::ByForce { depth: shape[0], width: shape[1], place: shape[2] },
             Self::ByPlace => Slip::ByPlace { depth: shape[0], width: shape[1] },

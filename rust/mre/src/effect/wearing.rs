@@ -73,7 +73,7 @@ impl Effect for Wearing {
         }
     }
 
-    fn state_change(&self, shape: &[f64]) -> Option<StateChange> {
+    fn state_change(&self, _: &Sizes, shape: &[f64]) -> Option<StateChange> {
         let (first, last) = (shape[0], shape[shape.len() - 1]);
         let wear = match self {
             Self::Strength => Wear { strength: first, ..Wear::default() },

@@ -1,4 +1,5 @@
-//! The hysteretic variable of a Bouc-Wen device whose state follows its motion otherwise: it slips, or wears.
+//! The hysteretic variable of a Bouc-Wen device whose state follows its motion otherwise: it slips, wears, or yields at a
+//! displacement that follows the current.
 //!
 //! `dw/dt = rho h (v - nu (sigma |v| |w|^(n-1) w - (sigma - 1) v |w|^n)) / eta` with a slip `h`, `nu = 1 + strength e`,
 //! `eta = 1 + stiffness e`, `e` the integral of `w v`, not below zero; a slip sees the state over its yield, which falls with
@@ -11,6 +12,7 @@ use std::f64::consts::PI;
 use super::climb::Climb;
 use super::elementary::erf;
 use super::intervals::Plan;
+use crate::recording::Condition;
 
 /// What is changed of the law of a state.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -19,6 +21,8 @@ pub struct StateChange {
     pub slip: Option<Slip>,
     /// How it wears.
     pub wear: Wear,
+    /// How its rate follows the current.
+    pub pace: Option<Pace>,
 }
 
 impl StateChange {
@@ -28,7 +32,7 @@ impl StateChange {
             strength: self.wear.strength + other.wear.strength,
             stiffness: self.wear.stiffness + other.wear.stiffness,
         };
-        Self { slip: other.slip.or(self.slip), wear }
+        Self { slip: other.slip.or(self.slip), wear, pace: other.pace.or(self.pace) }
     }
 }
 
@@ -39,6 +43,29 @@ pub struct Wear {
     pub strength: f64,
     /// Growth of eta, 1/mm: the displacement at yield grows.
     pub stiffness: f64,
+}
+
+/// rho as an affine function of the current.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pace {
+    /// Lowest current, A.
+    pub low: f64,
+    /// Highest less lowest current, A.
+    pub span: f64,
+    /// rho at the highest current, over that at the lowest.
+    pub ratio: f64,
+}
+
+impl Pace {
+    /// rho at every sample, over that at the lowest current. Outside the levels the nearest holds.
+    pub(crate) fn under(self, current: &Condition, samples: usize) -> Vec<f64> {
+        let at = |i: f64| 1.0 + (self.ratio - 1.0) * ((i - self.low) / self.span).clamp(0.0, 1.0);
+        match current {
+            Condition::Missing => vec![1.0; samples],
+            Condition::Constant(i) => vec![at(*i); samples],
+            Condition::Series(all) => all.iter().map(|i| at(*i)).collect(),
+        }
+    }
 }
 
 /// Where a state slips; the share of its rate that is left.
@@ -79,20 +106,20 @@ impl Slip {
     }
 }
 
-/// The hysteretic variable at every sample, from rest, for shapes `[rho, sigma, n]`.
+/// The hysteretic variable at every sample, from rest, for shapes `[rho, sigma, n]` under a current.
 pub(crate) fn trace(
-    time: &[f64],
-    x: &[f64],
-    velocity: &[f64],
+    [time, x, velocity]: [&[f64]; 3],
+    current: &Condition,
     [rho, sigma, n]: [f64; 3],
-    StateChange { slip, wear }: StateChange,
+    StateChange { slip, wear, pace }: StateChange,
 ) -> Vec<f64> {
+    let pace = pace.map(|pace| pace.under(current, time.len()));
     let bare = |u: f64| 1.0 - u.abs().powf(n) * (1.0 + sigma * (u.signum() - 1.0));
     let climb = Climb::new(|u| bare(u) * slip.map_or(1.0, |slip| slip.at(u)));
     let felt = |from: f64, far: f64| slip.map_or(far, |slip| slip.felt(from, far));
     let mut on = climb.at_rest(rho);
     let (mut w, mut dissipated) = (0.0, 0.0);
-    let mut go = |from: f64, far: f64| {
+    let mut go = |from: f64, far: f64, pace: f64| {
         let halfway = (dissipated + 0.5 * w * far).max(0.0);
         let yields = (1.0 + wear.strength * halfway).powf(-1.0 / n);
         let mut beyond = 0.0;
@@ -101,10 +128,10 @@ pub(crate) fn trace(
             let state: f64 = w / yields;
             let within = state.clamp(-1.0, 1.0);
             // A yield that fell leaves the state beyond it, to which it comes back.
-            beyond = (state - within) * (-n * rho * far.abs()).exp();
+            beyond = (state - within) * (-n * rho * pace * far.abs()).exp();
             on.set(within, rho);
         }
-        let next = yields * (on.moved(felt(from, far)) + beyond);
+        let next = yields * (on.moved(pace * felt(from, far)) + beyond);
         dissipated = (dissipated + 0.5 * (w + next) * far).max(0.0);
         w = next;
         w
@@ -114,9 +141,10 @@ pub(crate) fn trace(
     found.push(0.0);
     for i in 0..plan.len() {
         let (mut at, mut state) = (x[i], found[i]);
+        let pace = pace.as_ref().map_or(1.0, |pace| 0.5 * (pace[i] + pace[i + 1]));
         for interval in plan.after(i) {
             let far = interval.far();
-            state = go(at, far);
+            state = go(at, far, pace);
             at += far;
         }
         found.push(state);
@@ -147,7 +175,10 @@ mod tests {
         for shape in [[0.3, 0.8, 1.7], [0.5, 0.5, 1.0], [0.2, 1.4, 2.0]] {
             let mut plain = vec![0.0; x.len()];
             hysteretic::trace(&time, &v, shape, &mut plain);
-            let off = largest_difference(&plain, &trace(&time, &x, &v, shape, StateChange::default()));
+            let off = largest_difference(
+                &plain,
+                &trace([&time, &x, &v], &Condition::Missing, shape, StateChange::default()),
+            );
             assert!(off < 3e-4, "{shape:?} {off}");
         }
     }
@@ -156,12 +187,12 @@ mod tests {
     fn noise_of_the_displacement_moves_no_state() {
         let [time, mut x, v] = motion(400.0);
         let shape = [0.6, 0.7, 1.0];
-        let change = StateChange { wear: Wear { strength: 0.01, stiffness: 0.0 }, slip: None };
-        let still = trace(&time, &x, &v, shape, change);
+        let change = StateChange { wear: Wear { strength: 0.01, stiffness: 0.0 }, ..StateChange::default() };
+        let still = trace([&time, &x, &v], &Condition::Missing, shape, change);
         for (i, x) in x.iter_mut().enumerate() {
             *x += if i % 2 == 0 { 0.02 } else { -0.02 };
         }
-        assert!(still == trace(&time, &x, &v, shape, change));
+        assert!(still == trace([&time, &x, &v], &Condition::Missing, shape, change));
     }
 
     #[test]
@@ -176,7 +207,12 @@ mod tests {
         for slip in slips {
             for wear in [Wear::default(), Wear { strength: 0.5, stiffness: 0.5 }] {
                 for shape in [[1e-3, 0.5, 1.0], [20.0, 2.0, 5.0], [1e6, 1.5, 1.0]] {
-                    let found = trace(&time, &x, &v, shape, StateChange { slip, wear });
+                    let found = trace(
+                        [&time, &x, &v],
+                        &Condition::Missing,
+                        shape,
+                        StateChange { slip, wear, pace: None },
+                    );
                     assert!(found.iter().all(|w| w.abs() <= 1.0 + 1e-6), "{slip:?} {wear:?} {shape:?}");
                 }
             }
@@ -191,10 +227,18 @@ mod tests {
         let by_force = Slip::ByForce { depth, width, place: 0.15 };
         let by_place = Slip::ByPlace { depth, width: 1.2 };
         let worn = Wear { strength: 0.01, stiffness: 0.02 };
-        let changes = [(Some(by_force), Wear::default()), (Some(by_place), Wear::default()), (None, worn)];
-        for (slip, wear) in changes {
-            let change = StateChange { slip, wear };
-            let found = trace(&time, &x, &v, [rho, sigma, n], change);
+        let pace = Pace { low: -1.0, span: 2.0, ratio: 3.0 };
+        let current = Condition::Series(time.iter().map(|t| (2.0 * t).sin()).collect());
+        let changes = [
+            (Some(by_force), Wear::default(), None),
+            (Some(by_place), Wear::default(), None),
+            (None, worn, None),
+            (None, Wear::default(), Some(pace)),
+            (Some(by_place), Wear::default(), Some(pace)),
+        ];
+        for (slip, wear, pace) in changes {
+            let change = StateChange { slip, wear, pace };
+            let found = trace([&time, &x, &v], &current, [rho, sigma, n], change);
             // Euler's method at two hundredths of a step.
             let (mut w, mut e, mut off): (f64, f64, f64) = (0.0, 0.0, 0.0);
             for i in 1..time.len() {
@@ -212,6 +256,7 @@ mod tests {
                         None => 1.0,
                     };
                     let turn = sigma * (v.abs() * w.signum() - v) + v;
+                    let rho = pace.map_or(rho, |_| rho * (2.0 + (2.0 * t).sin()));
                     let (nu, eta) = (1.0 + wear.strength * e, 1.0 + wear.stiffness * e);
                     w += h * rho * share * (v - nu * w.abs().powf(n) * turn) / eta;
                     e += h * w * v;

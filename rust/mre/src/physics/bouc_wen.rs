@@ -101,7 +101,8 @@ impl Term for BoucWen {
 fn changed(recording: &Recording, shape: &[f64]) -> Option<Vec<f64>> {
     let change = recording.state_change()?;
     let (time, x, velocity) = (recording.time(), recording.displacement(), recording.velocity());
-    Some(state_change::trace(time, x, velocity, [shape[0], shape[1], shape[2]], change))
+    let shape = [shape[0], shape[1], shape[2]];
+    Some(state_change::trace([time, x, velocity], recording.current(), shape, change))
 }
 
 /// The same model in the notation of eq. 1 and 2, with the redundant A fixed at 1:

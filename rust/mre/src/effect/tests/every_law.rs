@@ -10,6 +10,7 @@ use super::super::{CATALOGUE, Effect, Scene};
 use super::Stage;
 use crate::kernel::state_change::{StateChange, trace};
 use crate::parameter::{Parameter, Scale};
+use crate::recording::Condition;
 
 /// Ids of the contract.
 const IDS: [&str; 27] = [
@@ -79,7 +80,7 @@ fn made(effect: &dyn Effect, scene: &Scene, shape: &[f64]) -> Vec<Vec<f64>> {
     all.extend(effect.current(scene, shape));
     all.extend(effect.through(scene, shape, scene.force));
     all.extend(effect.shown(scene, shape));
-    all.extend(effect.state_change(shape).map(|change| state_of(scene, change)));
+    all.extend(effect.state_change(scene.sizes, shape).map(|change| state_of(scene, change)));
     if let Some((low, high)) = effect.clip(shape) {
         all.push(scene.force.iter().map(|f| f.clamp(low, high)).collect());
     }
@@ -88,7 +89,8 @@ fn made(effect: &dyn Effect, scene: &Scene, shape: &[f64]) -> Vec<Vec<f64>> {
 
 /// The state of a hysteretic device.
 fn state_of(scene: &Scene, change: StateChange) -> Vec<f64> {
-    trace(scene.time, scene.displacement, scene.velocity, [0.5, 0.7, 1.4], change)
+    let current = scene.current.map_or(Condition::Missing, |current| Condition::Series(current.to_vec()));
+    trace([scene.time, scene.displacement, scene.velocity], &current, [0.5, 0.7, 1.4], change)
 }
 
 fn inside(p: &Parameter, u: f64) -> f64 {
