@@ -1,4 +1,4 @@
-"""Laws of the state of a Bouc-Wen base: it slips (Baber, Noori), wears (Baber, Wen), or follows the current."""
+"""Laws of the state of a Bouc-Wen base: it slips (Baber, Noori), wears (Baber, Wen), follows the current."""
 
 import mre_core
 import numpy as np
