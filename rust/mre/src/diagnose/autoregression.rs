@@ -47,7 +47,7 @@ impl Products {
     }
 
     /// Variance that coefficients leave.
-    fn variance(&self, a: &[f64]) -> f64 {
+    pub(super) fn variance(&self, a: &[f64]) -> f64 {
         let full = DVector::from_iterator(a.len() + 1, [1.0].into_iter().chain(a.iter().map(|a| -a)));
         let part = self.lags.view((0, 0), (full.len(), full.len()));
         (full.dot(&(part * &full)) / self.rows).max(f64::MIN_POSITIVE)
@@ -61,14 +61,18 @@ pub(super) struct Choice {
 }
 
 impl Choice {
-    /// The order with the lowest criterion.
-    pub(super) fn best(recordings: &[&Products]) -> Self {
-        let longest = recordings[0].order();
+    /// Of one recording.
+    pub(super) fn of(recording: &Products) -> Self {
+        Self::best(&[recording], recording.order())
+    }
+
+    /// The order with the lowest criterion, up to one that all recordings have.
+    pub(super) fn best(recordings: &[&Products], longest: usize) -> Self {
         // Weighted so that every recording counts by its samples, not by its size.
         let weights: Vec<f64> = recordings.iter().map(|p| 1.0 / p.variance(&[])).collect();
         let mut sum = DMatrix::zeros(longest + 1, longest + 1);
         for (p, w) in recordings.iter().zip(&weights) {
-            sum += &p.lags * *w;
+            sum += p.lags.view((0, 0), (longest + 1, longest + 1)) * *w;
         }
         let tried = ORDERS.iter().map(|share| {
             let order = ((share * longest as f64).round() as usize).max(usize::from(*share > 0.0));

@@ -55,7 +55,7 @@ fn beside_the_motion(residual: &[f64], motion: &[Vec<f64>; 2], recording: &Recor
     let most = (1..=STRETCHES).rev().find(|count| each_has(*count, CYCLES))?;
     let step = 1.0 / recording.sampling_rate();
     let calm = without_hum(residual, step);
-    let predicted = |series: &[f64]| Choice::best(&[&Products::of(series, step)]).criterion;
+    let predicted = |series: &[f64]| Choice::of(&Products::of(series, step)).criterion;
     let mut left = None;
     for order in 1..=ORDERS {
         let before = left.as_ref().unwrap_or(&calm);

@@ -9,6 +9,10 @@ use crate::kernel::filter::{dot, prediction_error};
 
 /// Rates that differ by less than this share are one.
 const SAME_RATE: f64 = 0.01;
+/// A residual of more than this many times the rms of any other may be no noise.
+const LOUDER: f64 = 3.0;
+/// Nor is it where the autoregression of the others leaves more than this many times the variance of its own.
+const UNLIKE: f64 = 4.0;
 
 /// The autoregression of a recording.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,16 +39,23 @@ pub(super) fn filters(
     let total: usize = residuals.iter().map(Vec::len).sum();
     let mut filters: Vec<Option<Filter>> = vec![None; residuals.len()];
     let mut gaps = vec![Gaps::none(); residuals.len()];
+    let of_rate =
+        |r: usize| (0..residuals.len()).filter(move |s| (steps[*s] / steps[r] - 1.0).abs() < SAME_RATE);
+    let odd = (0..residuals.len()).find_map(|r| beside_the_odd(&products, &of_rate(r).collect::<Vec<_>>()));
+    if let Some((r, others)) = odd {
+        let share = freedom as f64 * residuals[r].len() as f64 / total as f64;
+        let (filter, gap) = Filter::of(&residuals[r], steps[r], &others, share, &left_out[r]);
+        (filters[r], gaps[r]) = (Some(filter), gap);
+    }
     for r in 0..residuals.len() {
         if filters[r].is_some() {
             continue;
         }
-        let alike: Vec<usize> = (r..residuals.len())
-            .filter(|s| (steps[*s] / steps[r] - 1.0).abs() < SAME_RATE)
-            .filter(|s| products[*s].order() == products[r].order())
-            .collect();
-        let own: Vec<Choice> = alike.iter().map(|s| Choice::best(&[&products[*s]])).collect();
-        let together = Choice::best(&alike.iter().map(|s| &products[*s]).collect::<Vec<_>>());
+        let longest = products[r].order();
+        let alike: Vec<usize> =
+            of_rate(r).filter(|s| filters[*s].is_none() && products[*s].order() == longest).collect();
+        let own: Vec<Choice> = alike.iter().map(|s| Choice::of(&products[*s])).collect();
+        let together = Choice::best(&alike.iter().map(|s| &products[*s]).collect::<Vec<_>>(), longest);
         let of_alike: usize = alike.iter().map(|s| residuals[*s].len()).sum();
         let shared = together.criterion <= own.iter().map(|c| c.criterion).sum();
         for (k, s) in alike.iter().enumerate() {
@@ -59,6 +70,24 @@ pub(super) fn filters(
         }
     }
     (filters.into_iter().flatten().collect(), gaps)
+}
+
+/// The one of these recordings that is far louder and like none of the others, and the noise of those: what it has alone
+/// is no noise, although an autoregression of its own would predict it.
+fn beside_the_odd(products: &[Products], recordings: &[usize]) -> Option<(usize, Choice)> {
+    let size = |r: usize| products[r].variance(&[]);
+    let odd = recordings.iter().copied().max_by(|a, b| size(*a).total_cmp(&size(*b)))?;
+    let others: Vec<usize> = recordings.iter().copied().filter(|r| *r != odd).collect();
+    if others.len() < 2 || others.iter().any(|r| size(odd) < LOUDER.powi(2) * size(*r)) {
+        return None;
+    }
+    let longest = recordings.iter().map(|r| products[*r].order()).min()?;
+    let common = Choice::best(&others.iter().map(|r| &products[*r]).collect::<Vec<_>>(), longest);
+    let unlike = |r: usize| {
+        let own = Choice::best(&[&products[r]], longest);
+        products[r].variance(&common.coefficients) > UNLIKE * products[r].variance(&own.coefficients)
+    };
+    (unlike(odd) && !others.into_iter().any(unlike)).then_some((odd, common))
 }
 
 impl Filter {

@@ -6,7 +6,8 @@
 //! are effects of the measurement, and taken off before.
 //!
 //! Recordings of one sampling rate share it, each with its own size, unless they plainly differ: what is
-//! estimated from more samples is estimated better, and tests far out in the tail need that.
+//! estimated from more samples is estimated better, and tests far out in the tail need that. What one alone has, several
+//! times as large as the noise of the others, is none.
 //!
 //! What is slower than an autoregression tells of is the noise's [wander](super::wander).
 
