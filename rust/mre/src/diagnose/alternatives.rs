@@ -59,7 +59,7 @@ pub(super) fn rivals<'a>(
         .filter(|score| {
             let about = score.effect.about();
             let in_doubt = about.effect == known.effect || doubted.contains(&about.effect);
-            in_doubt && about != known && found.iter().all(|model| law(model) != Some(about))
+            in_doubt && about != known && found.iter().all(|model| model.law() != Some(about))
         })
         .collect();
     let null = (!others.is_empty()).then(|| Null::new(&without.assembly, data, unit)).flatten();
@@ -93,7 +93,7 @@ pub(super) fn rivals<'a>(
     let mut laws: BTreeMap<&str, usize> = BTreeMap::new();
     let mut rivals: Vec<Rival> = Vec::new();
     for model in found {
-        let Some(About { effect, .. }) = law(&model).filter(|about| *about != known) else { continue };
+        let Some(About { effect, .. }) = model.law().filter(|about| *about != known) else { continue };
         let count = laws.entry(effect).or_default();
         *count += 1;
         if *count <= LAWS && (effect == known.effect || close.contains(&effect)) {
@@ -104,18 +104,14 @@ pub(super) fn rivals<'a>(
     Alternatives { effects, rivals, laws }
 }
 
-/// What is known of the law that a model has in the place.
-fn law(model: &Candidate) -> Option<About> {
-    model.assembly.effects().last().map(|effect| effect.about())
-}
-
 /// Effects that may come within a criterion: some law of theirs would, had it no more parameters than the plainest. A
 /// larger law that takes the place of a plain one among those that are fitted leaves no more than that, at a higher price.
 fn doubted(found: &[Candidate], scored: &[Score], limit: f64) -> Vec<&'static str> {
     let spared = |model: &Candidate| {
         let of_effect = scored.iter().filter(|score| Some(score.effect.about().effect) == model.added());
         let fewest = of_effect.map(Score::parameters).min();
-        let own = scored.iter().find(|score| Some(score.effect.about()) == law(model)).map(Score::parameters);
+        let own =
+            scored.iter().find(|score| Some(score.effect.about()) == model.law()).map(Score::parameters);
         own.zip(fewest).map_or(0, |(own, fewest)| own - fewest)
     };
     let could = |model: &&Candidate| {

@@ -21,7 +21,7 @@ use super::settings::Settings;
 use super::slow::temper;
 use super::starts::{calm, without_initial_state};
 use crate::assembly::{Assembly, Campaign};
-use crate::effect::{CATALOGUE, Effect, Flexibility};
+use crate::effect::{About, CATALOGUE, Effect, Flexibility};
 
 /// The best of them are also fitted from other shapes of the base.
 const UNBENT: usize = 2;
@@ -55,14 +55,19 @@ impl Candidate<'_> {
         self.fitted.criterion()
     }
 
+    /// What is known of the last law.
+    pub(super) fn law(&self) -> Option<About> {
+        self.assembly.effects().last().map(|e| e.about())
+    }
+
     /// Id of the last effect.
     pub(super) fn added(&self) -> Option<&'static str> {
-        self.assembly.effects().last().map(|e| e.about().effect)
+        self.law().map(|about| about.effect)
     }
 
     /// Place of the last law in the catalogue.
     fn place(&self) -> usize {
-        let last = self.assembly.effects().last().map(|e| e.about());
+        let last = self.law();
         CATALOGUE.iter().position(|e| Some(e.about()) == last).unwrap_or(usize::MAX)
     }
 
