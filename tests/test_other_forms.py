@@ -1,5 +1,6 @@
 """Less common forms of an effect: the name is right, the law its own, and the model as good as the noise."""
 
+import itertools
 from collections.abc import Callable
 
 import mre_core
@@ -46,6 +47,63 @@ def worn(x: Array, v: Array, h: float) -> Array:
     return force
 
 
+def _stretched(v: Array, h: float, flow: Callable[[float], float]) -> Array:
+    """Stretch of a spring in series with a dashpot that gives way at a rate: Heun's steps from rest."""
+    q = np.zeros_like(v)
+    for i, (before, now) in enumerate(itertools.pairwise(v)):
+        early = before - flow(q[i])
+        q[i + 1] = q[i] + 0.5 * h * (early + now - flow(q[i] + h * early))
+    return q
+
+
+def hardening(x: Array, v: Array, h: float) -> Array:
+    """A relaxing spring whose force is twice that of a linear one at 1.5 mm."""
+    q = _stretched(v, h, lambda q: q * (1 + (q / 1.5) ** 2) / 0.3)
+    force: Array = 0.4 * v + 8 * x + 10 * np.sinh(0.3 * x) + 3 * q * (1 + (q / 1.5) ** 2)
+    return force
+
+
+def yielding(x: Array, v: Array, h: float) -> Array:
+    """A relaxing spring on a dashpot that thins from the force at 0.6 mm on."""
+    q = _stretched(v, h, lambda q: 0.6 * np.sinh(q / 0.6) / 0.5)
+    force: Array = 0.4 * v + 8 * x + 10 * np.sinh(0.3 * x) + 4 * q
+    return force
+
+
+def uneven_rig(x: Array, v: Array, h: float) -> Array:
+    """A fixture that gives way within 30 ms, 2 mm/kN pushed and 4 mm/kN pulled."""
+    force, bent = np.zeros_like(x), 0.0
+    rate = 0.0
+    for i, (moved, speed) in enumerate(zip(x, v, strict=True)):
+        bent += h * rate
+        left = moved - bent
+        f = 0.4 * (speed - rate) + 8 * left + 10 * np.sinh(0.3 * left)
+        # The dashpot of the device feels how fast the fixture gives way.
+        for _ in range(3):
+            rate = ((0.002 if f > 0 else 0.004) * f - bent) / 0.03
+            f = 0.4 * (speed - rate) + 8 * left + 10 * np.sinh(0.3 * left)
+        force[i] = f
+    return force
+
+
+def buffer(x: Array, v: Array, h: float) -> Array:
+    """Exponentially stiffer the farther it is pushed one way."""
+    force: Array = 0.4 * v + 8 * x + 10 * np.sinh(0.3 * x) + 3 * np.exp(0.3 * x)
+    return force
+
+
+def pulled_alone(x: Array, v: Array, h: float) -> Array:
+    """A strap that only pulls, by the cube."""
+    force: Array = 0.4 * v + 8 * x + 10 * np.sinh(0.3 * x) - 0.05 * np.maximum(-x, 0) ** 3
+    return force
+
+
+def two_stiffnesses(x: Array, v: Array, h: float) -> Array:
+    """Softer one way than the other, going over within a millimetre."""
+    force: Array = 0.4 * v + 8 * x + 10 * np.sinh(0.3 * x) + 0.7 * np.hypot(x, 1.0)
+    return force
+
+
 def campaign(force: Callable[[Array, Array, float], Array]) -> list[Recording]:
     """Sines from rest, 10 s each."""
     h = 1 / (RATE * FINE)
@@ -66,6 +124,12 @@ def campaign(force: Callable[[Array, Array, float], Array]) -> list[Recording]:
         (saturated, "force_clipping", "gradual"),
         (box, "creep", "box spectrum"),
         (worn, "cyclic_degradation", "strokes, "),
+        (hardening, "maxwell_relaxation", "one branch, hardening spring"),
+        (yielding, "maxwell_relaxation", "one branch, Eyring dashpot"),
+        (buffer, "asymmetric_stiffness", "exponential"),
+        (pulled_alone, "asymmetric_stiffness", "power, downwards only"),
+        (two_stiffnesses, "asymmetric_stiffness", "two stiffnesses, rounded"),
+        (uneven_rig, "rig_compliance", "spring and dashpot in series, softer one way"),
     ],
 )
 def test_the_law_is_named(force: Callable[[Array, Array, float], Array], effect: str, law: str) -> None:

@@ -52,7 +52,8 @@ pub(super) fn hidden_among(
     ids_of(scores)
         .into_iter()
         .filter_map(|id| {
-            let laws: Vec<&Score> = scores.iter().filter(|s| s.effect.about().effect == id).collect();
+            let of_it = |s: &&Score| s.effect.about().effect == id && !s.effect.plain_when_small();
+            let laws: Vec<&Score> = scores.iter().filter(of_it).collect();
             let seen = |s: &Score| {
                 let tests = effects as f64 * laws.len() as f64 * s.tests;
                 let threshold = quantile(false_alarm / tests, s.freedom.min(3));

@@ -74,7 +74,7 @@ pub(super) fn rivals<'a>(
     }
     found.sort_by(|a, b| a.criterion().total_cmp(&b.criterion()));
     let within = |far: f64| {
-        let near = found.iter().filter(move |model| model.criterion() <= own + far);
+        let near = found.iter().filter(move |model| model.as_the_smallest() <= own + far);
         near.filter_map(Candidate::added).filter(|effect| *effect != known.effect)
     };
     let mut close: Vec<&'static str> = Vec::new();
@@ -114,9 +114,6 @@ fn doubted(found: &[Candidate], scored: &[Score], limit: f64) -> Vec<&'static st
             scored.iter().find(|score| Some(score.effect.about()) == model.law()).map(Score::parameters);
         own.zip(fewest).map_or(0, |(own, fewest)| own - fewest)
     };
-    let could = |model: &&Candidate| {
-        let price = (model.fitted.rows as f64).ln();
-        model.criterion() - price * spared(model) as f64 <= limit
-    };
+    let could = |model: &&Candidate| model.criterion() - model.fitted.price() * spared(model) as f64 <= limit;
     found.iter().filter(could).filter_map(Candidate::added).collect()
 }

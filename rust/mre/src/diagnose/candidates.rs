@@ -22,6 +22,7 @@ use super::slow::temper;
 use super::starts::{calm, without_initial_state};
 use crate::assembly::{Assembly, Campaign};
 use crate::effect::{About, CATALOGUE, Effect, Flexibility};
+use crate::parameter::Parameter;
 
 /// The best of them are also fitted from other shapes of the base.
 const UNBENT: usize = 2;
@@ -63,6 +64,18 @@ impl Candidate<'_> {
     /// Id of the last effect.
     pub(super) fn added(&self) -> Option<&'static str> {
         self.law().map(|about| about.effect)
+    }
+
+    /// The criterion of the law without the parameters that stand at an ideal of their own: there it is a smaller law.
+    pub(super) fn as_the_smallest(&self) -> f64 {
+        let shapes = self.assembly.shapes();
+        let sizes = self.assembly.campaign().sizes();
+        let own = self.assembly.effects().last().map_or(0, |e| e.shape(sizes).len());
+        let idle = |(p, unit): &(&Parameter, &f64)| {
+            (**unit <= 0.0 && p.ideal.lower) || (**unit >= 1.0 && p.ideal.upper)
+        };
+        let idle = shapes.iter().zip(&self.fitted.unit).rev().take(own).filter(idle).count();
+        self.criterion() - self.fitted.price() * idle as f64
     }
 
     /// Place of the last law in the catalogue.
@@ -167,7 +180,7 @@ fn promising<'s>(null: &Null, scores: &'s [Score], most: usize) -> Vec<Held<'s>>
     let gain = |held: &Held| {
         if held.score.effect.coefficients().is_empty() { held.gain.max(held.score.gain) } else { held.gain }
     };
-    let price = (null.point.fitted.rows as f64).ln();
+    let price = null.point.fitted.price();
     let size = |held: &Held| held.score.parameters();
     let paid = |held: &Held| gain(held) - price * size(held) as f64;
     refined.sort_by(|a, b| paid(b).total_cmp(&paid(a)));

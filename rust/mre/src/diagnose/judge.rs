@@ -93,7 +93,7 @@ fn alone<'a>(
     let hum = hummed.as_ref().map_or(0, |c| c.assembly.effects().len() - begun.assembly.effects().len());
     let effects = named.assembly.effects().len() - begun.assembly.effects().len() - hum;
     let parameters = named.fitted.parameters() - before.parameters();
-    let improvement = explained - parameters as f64 * (base.rows as f64).ln();
+    let improvement = explained - parameters as f64 * base.price();
     // A drift has parameters in every recording, and even smooth forces have a slow part: it has to leave something.
     let drifts = named.assembly.effects().iter().any(|e| e.slow().is_some() && e.of_the_measurement());
     let leaves_nothing = rest.cautious() > BEYOND_CHANCE;

@@ -37,9 +37,14 @@ impl Fitted {
         self.left + 2.0 * self.parameters() as f64
     }
 
+    /// What a parameter costs in the Bayesian information criterion.
+    pub(super) fn price(&self) -> f64 {
+        (self.rows as f64).ln()
+    }
+
     /// Whitened Bayesian information criterion, up to a constant.
     pub(super) fn criterion(&self) -> f64 {
-        self.left + self.parameters() as f64 * (self.rows as f64).ln()
+        self.left + self.parameters() as f64 * self.price()
     }
 }
 

@@ -4,6 +4,7 @@ use super::Effect;
 use super::adiabatic::Adiabatic;
 use super::asymmetric::Asymmetric;
 use super::backlash::Backlash;
+use super::bent_branch::BentBranch;
 use super::bristles::Bristles;
 use super::clipping::Clipping;
 use super::coulomb::Coulomb;
@@ -49,6 +50,8 @@ pub const CATALOGUE: &[&dyn Effect] = &[
         name: "one branch, with the current",
         equation: "dF_m/dt = k_m(I) v - F_m/tau, k_m affine in I",
     },
+    &BentBranch::Spring,
+    &BentBranch::Dashpot,
     &Fractional::Springpot,
     &Fractional::Maxwell,
     &WithCurrent {
@@ -100,7 +103,11 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &OddElastic::Power,
     &Asymmetric::Square,
     &Asymmetric::OneSided,
+    &Asymmetric::Rounded,
     &Asymmetric::Fourth,
+    &Asymmetric::Exponential,
+    &Asymmetric::Up,
+    &Asymmetric::Down,
     &QuadraticDamping::Square,
     &QuadraticDamping::Power,
     &QuadraticDamping::Eyring,
@@ -389,6 +396,7 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &EndStop::UnevenHertz,
     &Rig::Spring,
     &Rig::Viscoelastic,
+    &Rig::Uneven,
     &Rig::Joint,
     &Drift::Constant,
     &Drift::Linear,

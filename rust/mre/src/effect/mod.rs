@@ -10,6 +10,7 @@ mod adiabatic;
 mod asymmetric;
 mod backlash;
 mod before;
+mod bent_branch;
 mod bristles;
 mod catalogue;
 mod clipping;
@@ -163,6 +164,12 @@ pub trait Effect: Send + Sync {
     /// True where the law scales only the springs of a hysteretic base model, or only its hysteretic force: beside
     /// another base it is the plain law.
     fn on_a_part(&self) -> bool {
+        false
+    }
+
+    /// True where the law becomes the plainest of its effect under small motions: that it would be seen does not say that
+    /// that one would.
+    fn plain_when_small(&self) -> bool {
         false
     }
 

@@ -5,6 +5,7 @@
 //! | `f_r` | flexibility of the rig, 1/`k_r`; of a joint at the largest force `F_m` | mm/N | 0 to half the flexibility of the device |
 //! | P | preload of a joint | N | 1 % to 300 % of the largest force |
 //! | `t_r` | retardation time of a rig that gives way slowly | s | a fifth of a sample to half the longest recording |
+//! | r | flexibility under a negative force over that under a positive one | - | 0.2 to 5 |
 //!
 //! The force that bends the rig is that of the device, as far as it is known.
 //! Reference: a spring, or a Kelvin-Voigt element, in series; a joint of rough or round surfaces (Johnson, Contact
@@ -26,8 +27,15 @@ pub(super) enum Rig {
     Spring,
     /// Slowly.
     Viscoelastic,
+    /// Slowly, and more one way than the other.
+    Uneven,
     /// At once, less and less.
     Joint,
+}
+
+/// What a rig that is softer one way gives way to, as a force.
+fn uneven(whole: &[f64], ratio: f64) -> Cow<'_, [f64]> {
+    Cow::Owned(each(whole, |force| if force < 0.0 { ratio * force } else { force }))
 }
 
 /// What a joint gives way to under a force, as a force: the same at the largest.
@@ -53,6 +61,11 @@ impl Effect for Rig {
                 equation: "the device sees x - u, t_r du/dt + u = f_r F",
                 ..spring
             },
+            Self::Uneven => About {
+                law: "spring and dashpot in series, softer one way",
+                equation: "the device sees x - u, t_r du/dt + u = f_r F, r f_r F where F < 0",
+                ..spring
+            },
             Self::Joint => About {
                 law: "joint in series",
                 limit: "F_m is the largest force measured; for a linear device it is part of k0 and c0",
@@ -68,8 +81,11 @@ impl Effect for Rig {
         let mut shape = vec![within("f_r", "mm/N", 0.0, 0.5 * sizes.displacement / sizes.force)];
         match self {
             Self::Spring => {}
-            Self::Viscoelastic => {
+            Self::Viscoelastic | Self::Uneven => {
                 shape.push(ideal_below(order_within("t_r", "s", 0.2 * sizes.step, 0.5 * sizes.duration)));
+                if *self == Self::Uneven {
+                    shape.push(order_within("r", "", 0.2, 5.0));
+                }
             }
             Self::Joint => {
                 let preload = order_within("P", "N", 0.01 * sizes.force, 3.0 * sizes.force);
@@ -90,21 +106,30 @@ impl Effect for Rig {
                 // Behind a soft one only the dashpot holds the device back.
                 stiff.chain(slow.map(|t_r| vec![2.0 * soft, t_r])).collect()
             }
+            Self::Uneven => {
+                let each_way = |start: Vec<f64>| [0.6, 1.7].map(|ratio| [&start[..], &[ratio]].concat());
+                Self::Viscoelastic.starts(sizes).into_iter().flat_map(each_way).collect()
+            }
         }
     }
 
     fn flexibility(&self, shape: &[f64]) -> Option<Flexibility> {
-        let retardation = if *self == Self::Viscoelastic { shape[1] } else { 0.0 };
-        Some(Flexibility { size: shape[0], retardation })
+        let (size, retardation) = match self {
+            Self::Spring | Self::Joint => (shape[0], 0.0),
+            Self::Viscoelastic => (shape[0], shape[1]),
+            Self::Uneven => (0.5 * shape[0] * (1.0 + shape[2]), shape[1]),
+        };
+        Some(Flexibility { size, retardation })
     }
 
     fn motion(&self, scene: &Scene, shape: &[f64]) -> Option<Motion> {
         let whole = scene.whole;
         let (force, rate) = match self {
             Self::Spring => (Cow::Borrowed(whole), slope(scene.time, whole)),
-            Self::Viscoelastic => {
-                let bent = lag(scene.time, whole, shape[1], whole[0]);
-                let rate = whole.iter().zip(&bent).map(|(now, bent)| (now - bent) / shape[1]).collect();
+            Self::Viscoelastic | Self::Uneven => {
+                let bends = shape.get(2).map_or(Cow::Borrowed(whole), |ratio| uneven(whole, *ratio));
+                let bent = lag(scene.time, &bends, shape[1], bends[0]);
+                let rate = bends.iter().zip(&bent).map(|(now, bent)| (now - bent) / shape[1]).collect();
                 (Cow::Owned(bent), rate)
             }
             Self::Joint => {

@@ -58,7 +58,7 @@ pub(crate) fn lag(time: &[f64], input: &[f64], tau: f64, start: f64) -> Vec<f64>
 }
 
 /// Second derivatives, per step squared, of the splines through even stretches.
-fn bends(time: &[f64], input: &[f64]) -> Vec<f64> {
+pub(crate) fn bends(time: &[f64], input: &[f64]) -> Vec<f64> {
     let mut found = vec![0.0; input.len()];
     for (from, to) in runs(time) {
         // A sample where the step changes belongs to both stretches: a spline ends there without a bend.

@@ -259,3 +259,44 @@ fn a_scaled_field_dependence_vanishes_at_the_ends_of_the_current() {
         close(damping[i], factors.stiffness[i], 1e-12);
     }
 }
+
+/// Steps of a bent branch from rest by the classical Runge-Kutta method, 16 to a sample, on the lines between velocities.
+fn stretched(stage: &Stage, rate: impl Fn(f64) -> f64) -> Vec<f64> {
+    let scene = stage.scene();
+    let (time, v) = (scene.time, scene.velocity);
+    scene.trace(0.0, |q, i| {
+        let h = (time[i] - time[i - 1]) / 16.0;
+        let at = |s: f64| v[i - 1] + (v[i] - v[i - 1]) * s / 16.0;
+        (0..16).fold(q, |q, k| {
+            let [early, middle, late] = [0.0, 0.5, 1.0].map(|s| at(f64::from(k) + s));
+            let a = early + rate(q);
+            let b = middle + rate(q + 0.5 * h * a);
+            let c = middle + rate(q + 0.5 * h * b);
+            let d = late + rate(q + h * c);
+            q + h / 6.0 * (a + 2.0 * b + 2.0 * c + d)
+        })
+    })
+}
+
+#[test]
+fn a_branch_that_is_not_linear_follows_its_equation() {
+    let stage = Stage::sine(5.0, 1.0, 3.0);
+    for (tau, bend) in [(0.02, 0.1), (0.2, 0.5), (0.2, 4.0), (2.0, 15.0)] {
+        let hard = |q: f64| q * (1.0 + (q / bend) * (q / bend));
+        let yielding = |q: f64| bend * (q / bend).sinh();
+        let exact = [
+            (
+                "one branch, hardening spring",
+                stretched(&stage, |q| -hard(q) / tau).into_iter().map(hard).collect(),
+            ),
+            ("one branch, Eyring dashpot", stretched(&stage, |q| -yielding(q) / tau)),
+        ];
+        for (name, wanted) in exact {
+            let found = column("maxwell_relaxation", name, &stage.scene(), &[tau, bend]);
+            let size = wanted.iter().fold(0.0_f64, |most, f| most.max(f.abs()));
+            for (found, wanted) in found.iter().zip(&wanted) {
+                assert!((found - wanted).abs() < 5e-4 * size, "{name} {tau} {bend}: {found} for {wanted}");
+            }
+        }
+    }
+}
