@@ -104,6 +104,15 @@ def two_stiffnesses(x: Array, v: Array, h: float) -> Array:
     return force
 
 
+def run_apart(x: Array, v: Array, h: float) -> Array:
+    """The force comes 4 ms late at first and 16 ms at the end: its logger's clock is slow."""
+    time = np.arange(len(x)) * h
+    at = time - 0.004 - 0.012 * time / time[-1]
+    x, v = np.interp(at, time, x), np.interp(at, time, v)
+    force: Array = 0.4 * v + 8 * x + 10 * np.sinh(0.3 * x)
+    return force
+
+
 def campaign(force: Callable[[Array, Array, float], Array]) -> list[Recording]:
     """Sines from rest, 10 s each."""
     h = 1 / (RATE * FINE)
@@ -129,6 +138,7 @@ def campaign(force: Callable[[Array, Array, float], Array]) -> list[Recording]:
         (buffer, "asymmetric_stiffness", "exponential"),
         (pulled_alone, "asymmetric_stiffness", "power, downwards only"),
         (two_stiffnesses, "asymmetric_stiffness", "two stiffnesses, rounded"),
+        (run_apart, "time_delay", "clocks that run apart"),
         (uneven_rig, "rig_compliance", "spring and dashpot in series, softer one way"),
     ],
 )

@@ -95,6 +95,7 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &TimeDelay::Continued,
     &TimeDelay::Held,
     &TimeDelay::Motion,
+    &TimeDelay::Drifting,
     &OddElastic::Cubic,
     &OddElastic::Quintic,
     &OddElastic::Sinh,

@@ -3,6 +3,7 @@
 //! | symbol | meaning | unit | range |
 //! |---|---|---|---|
 //! | d | delay of the force against the motion; negative: the motion lags | s | up to 50 ms |
+//! | g | what it grows by over the longest recording, where the clocks of two loggers run apart | s | up to 50 ms |
 //!
 //! Between samples the force is a spline, or the motion is, of which the force then follows: where the device turns
 //! sharply, a spline through its force swings.
@@ -10,6 +11,9 @@
 use super::{About, Effect, Motion, Scene, Sizes, within};
 use crate::kernel::spline::second_differences;
 use crate::parameter::Parameter;
+
+/// Longest delay, s.
+const LONGEST: f64 = 0.05;
 
 /// What is shifted, and what is measured of a force that is from before a recording began, or from after it ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,6 +24,25 @@ pub(super) enum TimeDelay {
     Held,
     /// The device sees the motion of another time.
     Motion,
+    /// The same, of a time that runs faster or slower, from the start of each recording.
+    Drifting,
+}
+
+/// The series at a place between its samples, as by a natural cubic spline with these second differences; along its end
+/// slopes beyond its ends.
+fn between(series: &[f64], bend: &[f64], at: f64) -> f64 {
+    let last = series.len() - 1;
+    let k = (at.max(0.0) as usize).min(last - 1);
+    let b = (at - k as f64).clamp(0.0, 1.0);
+    let a = 1.0 - b;
+    let curved = ((a.powi(3) - a) * bend[k] + (b.powi(3) - b) * bend[k + 1]) / 6.0;
+    let slope = series[k + 1] - series[k];
+    let beyond = if at < 0.0 {
+        at * (slope - bend[1] / 6.0)
+    } else {
+        (at - last as f64).max(0.0) * (slope + bend[last - 1] / 6.0)
+    };
+    a * series[k] + b * series[k + 1] + curved + beyond
 }
 
 /// The series at `time - delay`, by a natural cubic spline; along its end slopes beyond its ends.
@@ -48,6 +71,14 @@ pub(super) fn delayed(step: f64, series: &[f64], delay: f64) -> Vec<f64> {
         .collect()
 }
 
+/// The series at an ever earlier time.
+fn apart(scene: &Scene, series: &[f64], shape: &[f64]) -> Vec<f64> {
+    let (bend, step, start) = (second_differences(series), scene.step(), scene.time[0]);
+    let late = |t: f64| shape[0] + shape[1] * (t - start) / scene.sizes.duration;
+    let at = |(i, t): (usize, &f64)| between(series, &bend, i as f64 - late(*t) / step);
+    scene.time.iter().enumerate().map(at).collect()
+}
+
 impl Effect for TimeDelay {
     fn about(&self) -> About {
         About {
@@ -56,12 +87,16 @@ impl Effect for TimeDelay {
                 Self::Continued => "pure delay",
                 Self::Held => "pure delay, held before",
                 Self::Motion => "pure delay of the motion",
+                Self::Drifting => "clocks that run apart",
             },
-            plain: "one channel lags the other by a fixed time",
-            equation: if *self == Self::Motion {
-                "the base model sees x(t - d)"
-            } else {
-                "F_measured(t) = F(t - d)"
+            plain: match self {
+                Self::Drifting => "one channel lags the other by a time that grows or shrinks",
+                _ => "one channel lags the other by a fixed time",
+            },
+            equation: match self {
+                Self::Continued | Self::Held => "F_measured(t) = F(t - d)",
+                Self::Motion => "the base model sees x(t - d)",
+                Self::Drifting => "the base model sees x(t - d - g t/T), T the longest recording",
             },
             reference: "general",
             limit: "at one steady frequency it is part of k0 and c0",
@@ -69,21 +104,28 @@ impl Effect for TimeDelay {
     }
 
     fn shape(&self, _: &Sizes) -> Vec<Parameter> {
-        vec![within("d", "s", -0.05, 0.05)]
+        let time = |name| within(name, "s", -LONGEST, LONGEST);
+        if *self == Self::Drifting { vec![time("d"), time("g")] } else { vec![time("d")] }
     }
 
     fn starts(&self, _: &Sizes) -> Vec<Vec<f64>> {
+        if *self == Self::Drifting {
+            return [-0.01, 0.01].iter().flat_map(|g| [-0.003, 0.003].map(|d| vec![d, *g])).collect();
+        }
         vec![vec![-0.02], vec![-0.002], vec![0.002], vec![0.02]]
     }
 
     fn motion(&self, scene: &Scene, shape: &[f64]) -> Option<Motion> {
-        let shifted = |series: &[f64]| delayed(scene.step(), series, shape[0]);
-        (*self == Self::Motion)
+        let shifted = |series: &[f64]| match self {
+            Self::Drifting => apart(scene, series, shape),
+            _ => delayed(scene.step(), series, shape[0]),
+        };
+        matches!(self, Self::Motion | Self::Drifting)
             .then(|| Motion { displacement: shifted(scene.displacement), velocity: shifted(scene.velocity) })
     }
 
     fn through(&self, scene: &Scene, shape: &[f64], force: &[f64]) -> Option<Vec<f64>> {
-        if *self == Self::Motion {
+        if matches!(self, Self::Motion | Self::Drifting) {
             return None;
         }
         let mut found = delayed(scene.step(), force, shape[0]);

@@ -1,6 +1,6 @@
 //! Channels of motion, force and current against closed forms.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -77,6 +77,33 @@ fn a_delay_of_the_motion_shows_the_device_that_of_another_time() {
             close(seen.displacement[i], 3.0 * turn.sin(), 1e-6);
             close(seen.velocity[i], 3.0 * std::f64::consts::TAU * 2.0 * turn.cos(), 1e-5);
         }
+    }
+}
+
+#[test]
+fn clocks_that_run_apart_show_the_device_an_ever_earlier_motion() {
+    let stage = Stage::sine(3.0, 2.0, 4.0);
+    let scene = stage.scene();
+    let law = law("time_delay", "clocks that run apart");
+    for (delay, gained) in [(0.003, 0.02), (-0.008, 0.02), (0.0, -0.03)] {
+        let seen = law.motion(&scene, &[delay, gained]).expect("it moves");
+        for i in 50..scene.len() - 50 {
+            let turn = TAU * 2.0 * (scene.time[i] - delay - gained * scene.time[i] / 4.0);
+            assert!((seen.displacement[i] - 3.0 * turn.sin()).abs() < 1e-6, "{delay} {gained} {i}");
+            assert!((seen.velocity[i] - 12.0 * PI * turn.cos()).abs() < 1e-5, "{delay} {gained} {i}");
+        }
+    }
+}
+
+#[test]
+fn clocks_that_keep_together_delay_the_motion_alike() {
+    let stage = Stage::sine(3.0, 2.0, 4.0);
+    let scene = stage.scene();
+    let [same, plain] =
+        [("clocks that run apart", &[-0.0112, 0.0][..]), ("pure delay of the motion", &[-0.0112])]
+            .map(|(name, shape)| law("time_delay", name).motion(&scene, shape).unwrap().displacement);
+    for (a, b) in same.iter().zip(&plain) {
+        assert!((a - b).abs() < 1e-9, "{a} {b}");
     }
 }
 
