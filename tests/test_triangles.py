@@ -58,6 +58,28 @@ def test_a_blurred_corner_is_no_missing_physics(seed: int) -> None:
     assert found.to_dict()["left_out"] == found.left_out
 
 
+def turning(seed: int) -> list[Recording]:
+    """Triangle waves that turn within three samples, and a sine, with no noise on the displacement."""
+    rng = np.random.default_rng([37, seed])
+    t = np.arange(4000) / 200
+    recordings = []
+    for name, frequency, amplitude in (("fast", 3.4, 0.9), ("slow", 2.1, 2.0), ("sine", 1.3, 3.0)):
+        turn, sharp = 2 * np.pi * frequency * t, 0.0 if name == "sine" else 0.992
+        x = amplitude * (np.arcsin(sharp * np.sin(turn)) if sharp else np.sin(turn))
+        v = amplitude * 2 * np.pi * frequency * np.cos(turn)
+        v = v * sharp / np.sqrt(1 - (sharp * np.sin(turn)) ** 2) if sharp else v
+        noise = 0.02 * lfilter([np.sqrt(1 - 0.65**2)], [1, -0.65], rng.normal(size=t.size))
+        recordings.append(Recording(t, x, 8 * x + 0.15 * v + noise, name=name))
+    return recordings
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_turn_that_the_samples_do_not_resolve_is_no_missing_physics(seed: int) -> None:
+    found = diagnose(turning(seed), base="kelvin_voigt", seed=1)
+    assert found.verdict == "adequate", found
+    assert found.left_out["fast"] > 500 > found.left_out["slow"] > 200 > 10 > found.left_out["sine"]
+
+
 def ramps(seed: int) -> list[Recording]:
     """Ramps and holds with corners rounded over a twentieth of a second, on a Kelvin-Voigt device."""
     rng = np.random.default_rng([31, seed])

@@ -38,7 +38,8 @@ pub(super) fn of_one_motion(recording: &Recording) -> (Arc<Recording>, Doubts) {
         if derived.corners.is_empty() {
             let calming = Calming::of(time, x, &derived);
             let Calm { displacement, velocity, noisy } = calming.over(time, x);
-            let left_out = ends(time.len(), derived.half);
+            let ends = ends(time.len(), derived.half);
+            let left_out = velocity::joined(ends.into_iter().chain(derived.unresolved).collect());
             (displacement, velocity, Doubts { left_out, noisy, cornered: false, calming: Some(calming) })
         } else {
             // Across a corner a longer window takes off motion.

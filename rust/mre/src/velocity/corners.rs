@@ -38,7 +38,7 @@ pub(super) fn corners(displacement: &[f64], smooth: &[f64], half: usize) -> Vec<
 }
 
 /// The same samples as ranges in rising order that do not touch.
-pub(super) fn joined(mut ranges: Vec<Range<usize>>) -> Vec<Range<usize>> {
+pub(crate) fn joined(mut ranges: Vec<Range<usize>>) -> Vec<Range<usize>> {
     ranges.sort_by_key(|range| range.start);
     let mut found: Vec<Range<usize>> = Vec::new();
     for range in ranges {
