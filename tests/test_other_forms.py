@@ -113,6 +113,12 @@ def run_apart(x: Array, v: Array, h: float) -> Array:
     return force
 
 
+def thinning(x: Array, v: Array, h: float) -> Array:
+    """An oil whose viscosity falls above 8 mm/s, by Carreau's law."""
+    force: Array = 0.1 * v + 8 * x + 10 * np.sinh(0.3 * x) + 1.5 * v * (1 + (v / 8) ** 2) ** -0.3
+    return force
+
+
 def campaign(force: Callable[[Array, Array, float], Array]) -> list[Recording]:
     """Sines from rest, 10 s each."""
     h = 1 / (RATE * FINE)
@@ -139,6 +145,7 @@ def campaign(force: Callable[[Array, Array, float], Array]) -> list[Recording]:
         (pulled_alone, "asymmetric_stiffness", "power, downwards only"),
         (two_stiffnesses, "asymmetric_stiffness", "two stiffnesses, rounded"),
         (run_apart, "time_delay", "clocks that run apart"),
+        (thinning, "quadratic_damping", "Carreau"),
         (uneven_rig, "rig_compliance", "spring and dashpot in series, softer one way"),
     ],
 )

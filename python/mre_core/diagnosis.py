@@ -38,7 +38,7 @@ class MissingEffect:
     parameters: Mapping[str, Estimate]
     p_value: float
     form: str
-    """``"exact"``, or ``"approximate"`` where the law is not exactly that of the catalogue."""
+    """``"exact"``, or ``"approximate"`` where its law, or that of another, is not the catalogue's."""
     lack_of_fit: float
     """What the best further effect would add to an approximate form, as a share of the force's rms."""
     indistinguishable_from: tuple[str, ...]

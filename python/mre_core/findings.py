@@ -62,14 +62,17 @@ def _shows(effect: Raw, where: Sequence[Raw], names: Sequence[str]) -> str | Non
 
 
 def missing_effects(raw: Raw, names: Sequence[str], force: float) -> tuple[MissingEffect, ...]:
-    """Effects found, the most useful first. An inexact form is told of the first that follows the motion."""
+    """Effects found, the most useful first.
+
+    Of several, it is not known whose form is inexact: it is told of all of the device, or of the first.
+    """
     found = []
-    still = [effect["of_the_measurement"] for effect in raw["effects"]]
-    doubted = still.index(False) if False in still else 0
+    of_the_device = any(not effect["of_the_measurement"] for effect in raw["effects"])
     hopeless = [] if raw["next_test"] is None else _told(raw["next_test"]["prospects"][0], enough=False)
     for rank, effect in enumerate(raw["effects"]):
         at_the_end = tuple(effect["at_the_end"])
-        leaves = rank == doubted and raw["approximate"]
+        doubted = not effect["of_the_measurement"] if of_the_device else rank == 0
+        leaves = doubted and raw["approximate"]
         shows = _shows(effect, raw["where"], names) if rank == 0 else None
         rivals = tuple(effect["indistinguishable_from"])
         found.append(

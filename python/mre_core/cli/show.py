@@ -47,6 +47,7 @@ def print_diagnosis(found: "Diagnosis") -> None:
             if (more := len(effect.parameters) - _MOST) > 0:
                 table.add_row("", "", f"and {more} more")
         out.print(table)
+        inexact = sum(effect.lack_of_fit > 0 for effect in found.effects)
         for effect in found.effects:
             if effect.indistinguishable_from:
                 rest = ", ".join(effect.indistinguishable_from)
@@ -61,7 +62,8 @@ def print_diagnosis(found: "Diagnosis") -> None:
             if effect.form == "approximate" and (effect.lack_of_fit or not effect.at_the_end):
                 adds = f" (a further effect would add {100 * effect.lack_of_fit:.2g} % of the force)"
                 left = adds if effect.lack_of_fit else ""
-                out.print(f"{effect.id}: its law is not exactly the catalogue's{left}")
+                other = ", or that of another named here," if inexact > 1 else ""
+                out.print(f"{effect.id}: its law{other} is not exactly the catalogue's{left}")
     if found.unknown is not None:
         out.print(escape(found.unknown["statement"]))
     for place in found.where[:3]:

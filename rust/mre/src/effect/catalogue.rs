@@ -112,6 +112,7 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &QuadraticDamping::Square,
     &QuadraticDamping::Power,
     &QuadraticDamping::Eyring,
+    &QuadraticDamping::Carreau,
     &QuadraticDamping::OneWay,
     &QuadraticDamping::EachWay,
     &WithCurrent {
