@@ -100,21 +100,20 @@ impl<'a> Search<'_, 'a> {
         here
     }
 
-    /// The same with another effect in one place, if that leaves clearly less.
+    /// The same with another effect in one place, or the same one fitted anew, if that leaves clearly less.
     fn better_at(&self, here: &Named<'a>, place: usize) -> Option<Named<'a>> {
         let own = here.itself();
-        let id = here.assembly.effects()[place].about().effect;
         let data = self.data(&here.noise);
         let (without, best) = self.monitor.stage(Stage::Pairs, || {
             let Candidate { assembly, fitted } = self.drop(here, place);
             let scores = scores(&assembly, data, &fitted.unit, self.settings);
+            let clear = margin(CLEAR, fitted.left - own.fitted.left);
             let best = candidates(&assembly, data, &fitted.unit, &scores, REFITTED)
                 .into_iter()
-                .find(|c| c.added() != Some(id));
+                .find(|c| c.criterion() < own.criterion() - clear);
             (Named { scores, ..Named::bare(assembly, fitted, here.noise.clone()) }, best)
         })?;
-        let clear = margin(CLEAR, without.fitted.left - own.fitted.left);
-        let best = best.filter(|c| c.criterion() < own.criterion() - clear)?;
+        let best = best?;
         let p_value = self.significant(&without, &best)?;
         self.with_last(here, place, best, p_value)
     }
