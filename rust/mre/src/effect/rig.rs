@@ -5,7 +5,7 @@
 //! | `f_r` | flexibility of the rig, 1/`k_r`; of a joint at the largest force `F_m` | mm/N | 0 to half the flexibility of the device |
 //! | P | preload of a joint | N | 1 % to 300 % of the largest force |
 //! | `t_r` | retardation time of a rig that gives way slowly | s | a fifth of a sample to half the longest recording |
-//! | r | flexibility under a negative force over that under a positive one | - | 0.2 to 5 |
+//! | r | flexibility under a negative force over that under a positive one, `f_r`; for a hysteretic base | - | 0.2 to 5 |
 //!
 //! The force that bends the rig is that of the device, as far as it is known.
 //! Reference: a spring, or a Kelvin-Voigt element, in series; a joint of rough or round surfaces (Johnson, Contact
@@ -34,8 +34,8 @@ pub(super) enum Rig {
 }
 
 /// What a rig that is softer one way gives way to, as a force.
-fn uneven(whole: &[f64], ratio: f64) -> Cow<'_, [f64]> {
-    Cow::Owned(each(whole, |force| if force < 0.0 { ratio * force } else { force }))
+fn uneven(whole: &[f64], ratio: f64) -> Vec<f64> {
+    each(whole, |force| if force < 0.0 { ratio * force } else { force })
 }
 
 /// What a joint gives way to under a force, as a force: the same at the largest.
@@ -75,6 +75,11 @@ impl Effect for Rig {
                 ..spring
             },
         }
+    }
+
+    /// Of a device without hysteresis it would take what an asymmetric one does.
+    fn on_a_part(&self) -> bool {
+        *self == Self::Uneven
     }
 
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
@@ -127,7 +132,8 @@ impl Effect for Rig {
         let (force, rate) = match self {
             Self::Spring => (Cow::Borrowed(whole), slope(scene.time, whole)),
             Self::Viscoelastic | Self::Uneven => {
-                let bends = shape.get(2).map_or(Cow::Borrowed(whole), |ratio| uneven(whole, *ratio));
+                let bends =
+                    shape.get(2).map_or(Cow::Borrowed(whole), |ratio| Cow::Owned(uneven(whole, *ratio)));
                 let bent = lag(scene.time, &bends, shape[1], bends[0]);
                 let rate = bends.iter().zip(&bent).map(|(now, bent)| (now - bent) / shape[1]).collect();
                 (Cow::Owned(bent), rate)
