@@ -39,7 +39,7 @@ pub(super) fn of_one_motion(recording: &Recording) -> (Arc<Recording>, Doubts) {
             let calming = Calming::of(time, x, &derived);
             let Calm { displacement, velocity, noisy } = calming.over(time, x);
             let ends = ends(time.len(), derived.half);
-            let left_out = velocity::joined(ends.into_iter().chain(derived.unresolved).collect());
+            let left_out = velocity::joined(ends.into_iter().chain(derived.unresolved(time, x)).collect());
             (displacement, velocity, Doubts { left_out, noisy, cornered: false, calming: Some(calming) })
         } else {
             // Across a corner a longer window takes off motion.

@@ -8,6 +8,9 @@ const WEIGHTS: [f64; 3] = [0.75, -0.15, 1.0 / 60.0];
 const CARRIED: f64 = 1.082;
 /// They may differ by so many standard deviations of their noise.
 const NOISE: f64 = 5.0;
+/// Of so many samples one at most is missed. More are no corners or turns: the noise is larger than it seems, as of a rounded
+/// displacement that mostly rests.
+const FEW: usize = 4;
 
 /// Samples whose velocity in mm/s is further from such differences than they err, and than a `share` of the largest
 /// velocity, with the differences. The displacement in mm has `noise` of this size, rms; none where the times are not even.
@@ -22,6 +25,9 @@ pub(super) fn missed(
     let tolerance = NOISE * CARRIED * noise / step + share * largest(velocity);
     let mut found = differences(step, displacement);
     found.retain(|(i, difference)| (velocity[*i] - difference).abs() > tolerance);
+    if FEW * found.len() > time.len() {
+        found.clear();
+    }
     found
 }
 

@@ -31,12 +31,10 @@ const PART_TERMS: [usize; 3] = [2, 4, TERMS];
 /// Between corners there are more than so many times as many samples for each term.
 const CALMER: f64 = 2.0;
 
-/// Share of the largest velocity by which a slope may swing beside a corner, and err where the motion turns quickly.
+/// Share of the largest velocity by which a slope may swing beside a corner.
 const SWUNG: f64 = 2.5e-3;
+/// The same where a motion turns quickly.
 const TURNED: f64 = 1e-3;
-
-/// Of so many samples one at most swings beside a corner.
-const SWINGING: usize = 4;
 
 /// Samples on either side of one whose slope is not resolved, of which it is not either.
 const BESIDE: usize = 1;
@@ -62,14 +60,21 @@ pub struct Derived {
     /// Samples that have a corner of the motion in their window, on an even grid: their velocity is not to be
     /// trusted.
     pub corners: Vec<Range<usize>>,
-    /// Samples elsewhere, of a motion without corners, where it turns within fewer samples than give a slope.
-    pub unresolved: Vec<Range<usize>>,
 }
 
 impl Derived {
     /// Length of the window in s.
     pub fn window(&self, time: &[f64]) -> f64 {
         2.0 * self.half as f64 * step(time)
+    }
+
+    /// Samples of a motion without corners, derived from this displacement in mm, where it turns within fewer samples than
+    /// give a slope: about them polynomials and differences give another.
+    pub fn unresolved(&self, time: &[f64], displacement: &[f64]) -> Vec<Range<usize>> {
+        let noise = variance(displacement, &self.displacement, self.half).sqrt();
+        let missed = differences::missed(time, displacement, &self.velocity, noise, TURNED);
+        let around = |(i, _): (usize, f64)| i.saturating_sub(BESIDE)..(i + BESIDE + 1).min(time.len());
+        joined(missed.into_iter().map(around).collect())
     }
 }
 
@@ -85,27 +90,11 @@ fn step(time: &[f64]) -> f64 {
 pub fn from_displacement(time: &[f64], displacement: &[f64]) -> Derived {
     let window = Window::best(time, displacement, usize::MAX, &[TERMS]);
     let (velocity, smooth) = window.over(time, displacement);
-    let (corners, unresolved) = (Vec::new(), Vec::new());
-    let mut derived = Derived { velocity, displacement: smooth, half: window.half, corners, unresolved };
+    let mut derived = Derived { velocity, displacement: smooth, half: window.half, corners: Vec::new() };
     if even_step(time).is_ok() {
         between_corners(&mut derived, time, displacement, window);
     }
-    if derived.corners.is_empty() {
-        let noise = variance(displacement, &derived.displacement, derived.half).sqrt();
-        derived.unresolved = turns(time, displacement, &derived.velocity, noise);
-    }
     derived
-}
-
-/// Samples about which polynomials and differences give another slope, beside so much noise of the displacement in mm, rms.
-fn turns(time: &[f64], displacement: &[f64], velocity: &[f64], noise: f64) -> Vec<Range<usize>> {
-    let missed = differences::missed(time, displacement, velocity, noise, TURNED);
-    // More are no turns: the noise is larger than it seems.
-    if SWINGING * missed.len() > time.len() {
-        return Vec::new();
-    }
-    let around = |(i, _): (usize, f64)| i.saturating_sub(BESIDE)..(i + BESIDE + 1).min(time.len());
-    joined(missed.into_iter().map(around).collect())
 }
 
 /// Displacement in mm less the noise that a recorded velocity in mm/s does not share.
@@ -185,11 +174,7 @@ fn between_corners(derived: &mut Derived, time: &[f64], displacement: &[f64], wh
         derived.velocity[part.clone()].copy_from_slice(&velocity);
         derived.displacement[part].copy_from_slice(&smooth);
     }
-    let mut doubted = differences::missed(time, displacement, &derived.velocity, noise, SWUNG);
-    // More are no corners: the noise is larger than it seems, as of a rounded displacement that mostly rests.
-    if SWINGING * doubted.len() > time.len() {
-        doubted.clear();
-    }
+    let doubted = differences::missed(time, displacement, &derived.velocity, noise, SWUNG);
     // What has a memory needs all of the way, there too.
     for (i, difference) in &doubted {
         derived.velocity[*i] = *difference;
