@@ -136,8 +136,8 @@ class Diagnosis:
     a mismatch was found and nothing named (`unexplained`), and how often each effect was named
     (`by_effect`)."""
     left_out: Mapping[str, int] = field(default_factory=dict)
-    """Samples by recording that no fit, test or rms counts: near corners and ends of a motion without a
-    recorded velocity, where the one that can be derived is wrong or noisy."""
+    """Samples by recording that no fit, test or rms counts: near corners, too sharp turns and ends
+    of a motion without a recorded velocity, where the one that can be derived is wrong or noisy."""
     refitted: Refitted | None = None
     """Where the parameters of a base without effects were kept, something is missing, and fitted ones leave
     less."""

@@ -73,7 +73,7 @@ def print_diagnosis(found: "Diagnosis") -> None:
     if found.left_out:
         count = sum(found.left_out.values())
         out.print(
-            f"{count} samples near corners and ends of a motion are left out: "
+            f"{count} samples near corners, turns and ends of a motion are left out: "
             "the velocity that can be derived there is wrong or noisy"
         )
     _print_comparison(found, out)

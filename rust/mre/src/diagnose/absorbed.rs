@@ -52,14 +52,14 @@ pub(super) fn hidden_among(
     ids_of(scores)
         .into_iter()
         .filter_map(|id| {
-            let of_it = |s: &&Score| s.effect.about().effect == id && !s.effect.plain_when_small();
-            let laws: Vec<&Score> = scores.iter().filter(of_it).collect();
+            let laws: Vec<&Score> = scores.iter().filter(|s| s.effect.about().effect == id).collect();
             let seen = |s: &Score| {
                 let tests = effects as f64 * laws.len() as f64 * s.tests;
                 let threshold = quantile(false_alarm / tests, s.freedom.min(3));
                 s.trace.0 * size * size / threshold
             };
-            let best = laws.iter().max_by(|a, b| seen(a).total_cmp(&seen(b)))?;
+            let plain = laws.iter().filter(|s| !s.effect.plain_when_small());
+            let best = plain.max_by(|a, b| seen(a).total_cmp(&seen(b)))?;
             let chance = seen(best);
             if chance >= 1.0 {
                 return None;

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
-use super::candidates::{Candidate, candidates, scores};
+use super::candidates::{Candidate, candidates, scores, smallest};
 use super::held::Held;
 use super::joint::joint;
 use super::least_squares::Data;
@@ -51,7 +51,7 @@ pub(super) fn rivals<'a>(
     let known = named.assembly.effects()[place].about();
     let unit = &without.fitted.unit;
     let scored = scores(&without.assembly, data, unit, search.settings);
-    let own = named.fitted.criterion();
+    let own = smallest(&named.assembly, &named.fitted, place);
     let mut found = candidates(&without.assembly, data, unit, &scored, REFITTED);
     let doubted = doubted(&found, &scored, own + APART);
     let others: Vec<&Score> = scored

@@ -66,16 +66,10 @@ impl Candidate<'_> {
         self.law().map(|about| about.effect)
     }
 
-    /// The criterion of the law without the parameters that stand at an ideal of their own: there it is a smaller law.
+    /// The criterion without what the last law pays for parameters that stand at an ideal of their own.
     pub(super) fn as_the_smallest(&self) -> f64 {
-        let shapes = self.assembly.shapes();
-        let sizes = self.assembly.campaign().sizes();
-        let own = self.assembly.effects().last().map_or(0, |e| e.shape(sizes).len());
-        let idle = |(p, unit): &(&Parameter, &f64)| {
-            (**unit <= 0.0 && p.ideal.lower) || (**unit >= 1.0 && p.ideal.upper)
-        };
-        let idle = shapes.iter().zip(&self.fitted.unit).rev().take(own).filter(idle).count();
-        self.criterion() - self.fitted.price() * idle as f64
+        let last = self.assembly.effects().len().checked_sub(1);
+        last.map_or(self.criterion(), |last| smallest(&self.assembly, &self.fitted, last))
     }
 
     /// Place of the last law in the catalogue.
@@ -89,6 +83,20 @@ impl Candidate<'_> {
         let id = self.added();
         CATALOGUE.iter().position(|e| Some(e.about().effect) == id) == Some(self.place())
     }
+}
+
+/// The criterion of a model whose effect at a place pays for no parameter that stands at an ideal of its own: there it
+/// is a smaller law.
+pub(super) fn smallest(assembly: &Assembly, fitted: &Fitted, place: usize) -> f64 {
+    let sizes = assembly.campaign().sizes();
+    let counts: Vec<usize> = assembly.effects().iter().map(|e| e.shape(sizes).len()).collect();
+    let (after, own) = (counts.iter().skip(place + 1).sum(), counts.get(place).copied().unwrap_or(0));
+    let idle = |(p, unit): &(&Parameter, &f64)| {
+        (**unit <= 0.0 && p.ideal.lower) || (**unit >= 1.0 && p.ideal.upper)
+    };
+    let shapes = assembly.shapes();
+    let idle = shapes.iter().zip(&fitted.unit).rev().skip(after).take(own).filter(idle).count();
+    fitted.criterion() - fitted.price() * idle as f64
 }
 
 /// Advantage in the criterion that counts between candidates that explain so much.
