@@ -14,6 +14,9 @@ const FINEST: f64 = 1e-4;
 /// Steps are multiples of the lattice to this share of it: files round.
 const TOLERANCE: f64 = 0.02;
 
+/// Terms of the series. More would leave a rest that is not noise where the sensor is quiet and the model a little off.
+const TERMS: usize = 4;
+
 /// Saw tooth of the force of the device with its effects.
 #[derive(Debug, Clone, Copy)]
 pub struct Quantisation;
@@ -43,7 +46,7 @@ impl Effect for Quantisation {
     }
 
     fn coefficients(&self) -> Vec<Parameter> {
-        ["a_1", "b_1", "a_2", "b_2"].iter().map(|name| signed(name, "N")).collect()
+        (1..=TERMS).flat_map(|k| ["a", "b"].map(|name| signed(&format!("{name}_{k}"), "N"))).collect()
     }
 
     fn shape(&self, _: &Sizes) -> Vec<Parameter> {
@@ -56,10 +59,10 @@ impl Effect for Quantisation {
 
     fn columns(&self, scene: &Scene, _: &[f64]) -> Vec<Vec<f64>> {
         let Some(step) = scene.sizes.quantum else { return Vec::new() };
-        let wave = |k: f64, f: fn(f64) -> f64| {
-            scene.whole.iter().map(|force| f(std::f64::consts::TAU * k * force / step)).collect()
+        let wave = |k: usize, f: fn(f64) -> f64| {
+            scene.whole.iter().map(|force| f(std::f64::consts::TAU * k as f64 * force / step)).collect()
         };
-        vec![wave(1.0, f64::sin), wave(1.0, f64::cos), wave(2.0, f64::sin), wave(2.0, f64::cos)]
+        (1..=TERMS).flat_map(|k| [wave(k, f64::sin), wave(k, f64::cos)]).collect()
     }
 
     fn of_the_measurement(&self) -> bool {
