@@ -91,9 +91,8 @@ pub(super) fn smallest(assembly: &Assembly, fitted: &Fitted, place: usize) -> f6
     let sizes = assembly.campaign().sizes();
     let counts: Vec<usize> = assembly.effects().iter().map(|e| e.shape(sizes).len()).collect();
     let (after, own) = (counts.iter().skip(place + 1).sum(), counts.get(place).copied().unwrap_or(0));
-    let idle = |(p, unit): &(&Parameter, &f64)| {
-        (**unit <= 0.0 && p.ideal.lower) || (**unit >= 1.0 && p.ideal.upper)
-    };
+    let idle =
+        |(p, unit): &(&Parameter, &f64)| (**unit <= 0.0 && p.ideal.lower) || (**unit >= 1.0 && p.ideal.upper);
     let shapes = assembly.shapes();
     let idle = shapes.iter().zip(&fitted.unit).rev().skip(after).take(own).filter(idle).count();
     fitted.criterion() - fitted.price() * idle as f64
