@@ -98,10 +98,19 @@ class Piece(NamedTuple):
 
 
 def pieces(motion: Motion) -> list[Piece]:
-    """Between two samples the velocity is a parabola; where it turns, one piece ends and another begins."""
+    """Between two samples the velocity is a parabola; where it turns, one piece ends and another begins.
+
+    Where it jumps, one constant velocity follows another.
+    """
     found = []
+    corners = jumps(motion)
     for i, half in enumerate(halfway(motion)):
         v0, v1 = float(motion.velocity[i]), float(motion.velocity[i + 1])
+        if i in corners:
+            dt = float(motion.time[i + 1] - motion.time[i])
+            found.append(Piece(i, lambda _, v=v0: v, dt * corners[i]))  # type: ignore[misc]
+            found.append(Piece(i, lambda _, v=v1: v, dt * (1.0 - corners[i])))  # type: ignore[misc]
+            continue
         parabola = np.polynomial.Polynomial([v0, 4 * half - 3 * v0 - v1, 2 * v0 + 2 * v1 - 4 * half])
         dt = float(motion.time[i + 1] - motion.time[i])
         turn = float(brentq(parabola, 0.0, 1.0, xtol=1e-16, rtol=1e-15)) if v0 * v1 < 0.0 else 0.0
@@ -135,15 +144,48 @@ def substeps(rho: float, sigma: float, n: float, motion: Motion) -> list[int]:
     return counts
 
 
+def jumps(motion: Motion) -> dict[int, float]:
+    """Intervals in which the velocity jumps, with the share of each that passes before."""
+    t, x, v = motion.time, motion.displacement, motion.velocity
+    change, largest = np.diff(v), float(np.max(np.abs(v)))
+    found: dict[int, float] = {}
+
+    def corner(i: int) -> dict[int, float]:
+        share = float((v[i + 1] - (x[i + 1] - x[i]) / (t[i + 1] - t[i])) / change[i])
+        return {i: min(max(share, 0.0), 1.0)} if -0.25 < share < 1.25 else {}
+
+    def sharp(i: int, wide: int, times: float) -> bool:
+        jump = float(abs(v[i + wide] - v[i]))
+        beside = [k for k in range(i - 2, i + wide + 2) if not i <= k < i + wide]
+        return (
+            beside[-1] < len(change)
+            and all(float(abs(change[k])) > 0.05 * largest for k in range(i, i + wide))
+            and all(jump > times * float(abs(change[k])) for k in beside)
+        )
+
+    for i in range(2, len(change) - 2):
+        if sharp(i, 1, 4.0):
+            found |= corner(i)
+        elif sharp(i, 2, 8.0):
+            two = corner(i) | corner(i + 1)
+            found |= two if len(two) == 2 else {}
+    return found
+
+
 def halfway(motion: Motion) -> list[float]:
-    """Velocity halfway between samples: the mean of the parabolas through three, where there are two."""
+    """Velocity halfway between samples: the mean of the parabolas through three, where there are two.
+
+    Where it jumps between two of the three, that parabola does not count.
+    """
     t, v = motion.time, motion.velocity
+    corners = jumps(motion)
     found = []
     for i in range(len(motion) - 1):
         middle, line = 0.5 * (t[i] + t[i + 1]), 0.5 * (v[i] + v[i + 1])
         values = []
         for first in (i - 1, i):
-            if first >= 0 and first + 2 < len(motion):
+            broken = first in corners or first + 1 in corners
+            if first >= 0 and first + 2 < len(motion) and not broken:
                 at, three = t[first : first + 3], v[first : first + 3]
                 weights = [
                     math.prod((middle - at[k]) / (at[j] - at[k]) for k in range(3) if k != j)

@@ -2,21 +2,28 @@
 //! swings, by more than a filter faster than their spacing does to it.
 
 use crate::kernel::intervals::middles;
+use crate::kernel::jumps::jumps;
 use crate::recording::{Condition, Recording, Series};
 
-/// The recording with one more sample between any two: displacement by the cubic that has their velocities, velocity as a
+/// The recording with one more sample between any two: displacement by the cubic that has their velocities, or the two lines of a corner, velocity as a
 /// hysteretic variable takes it. `None` where that is no recording.
 pub(super) fn with_halves(recording: &Recording) -> Option<Recording> {
     let (time, x, v) = (recording.time(), recording.displacement(), recording.velocity());
+    let jumps = jumps(time, x, v);
+    let corner = |i: usize| jumps.binary_search_by_key(&i, |(place, _)| *place).ok().map(|k| jumps[k].1);
     let between = |i: usize| {
-        let step = time[i + 1] - time[i];
-        0.5 * (x[i] + x[i + 1]) + 0.125 * step * (v[i] - v[i + 1])
+        let half = 0.5 * (time[i + 1] - time[i]);
+        match corner(i) {
+            Some(share) if share < 0.5 => x[i + 1] - half * v[i + 1],
+            Some(_) => x[i] + half * v[i],
+            None => 0.5 * (x[i] + x[i + 1]) + 0.25 * half * (v[i] - v[i + 1]),
+        }
     };
     let condition = |condition: &Condition| match condition {
         Condition::Series(values) => Condition::Series(woven(values, |i| mean(values, i))),
         other => other.clone(),
     };
-    let velocity = middles(time, v);
+    let velocity = middles(time, v, &jumps);
     Recording::new(Series {
         time: woven(time, |i| mean(time, i)),
         displacement: woven(x, between),

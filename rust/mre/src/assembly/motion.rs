@@ -7,7 +7,7 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::deviate::normal;
 use crate::recording::Recording;
-use crate::velocity::{self, Calm, Calming};
+use crate::velocity::{self, Calm, Calming, Derived, Smoothed};
 
 /// A derived velocity has about twice the noise and more within one part in so many of half a window from an end of its
 /// recording: an effect that changes with time would seem to explain that.
@@ -27,6 +27,9 @@ pub(crate) struct Doubts {
     pub(crate) calming: Option<Calming>,
 }
 
+/// Displacement, mm, velocity, mm/s, and in what they are not to be trusted.
+type Motion = (Vec<f64>, Vec<f64>, Doubts);
+
 /// A recording whose displacement is the one that its velocity is the slope of, without the noise of the two.
 ///
 /// Otherwise that noise, which the force does not follow, could be told from the two, and every effect with
@@ -37,20 +40,41 @@ pub(super) fn of_one_motion(recording: &Recording) -> (Arc<Recording>, Doubts) {
         let derived = velocity::from_displacement(time, x);
         if derived.corners.is_empty() {
             let calming = Calming::of(time, x, &derived);
-            let Calm { displacement, velocity, noisy } = calming.over(time, x);
-            let ends = ends(time.len(), derived.half);
-            let left_out = velocity::joined(ends.into_iter().chain(derived.unresolved(time, x)).collect());
-            (displacement, velocity, Doubts { left_out, noisy, cornered: false, calming: Some(calming) })
+            without_corners(time, x, &derived, calming)
         } else {
             // Across a corner a longer window takes off motion.
             let velocity::Derived { displacement, velocity, corners, .. } = derived;
             (displacement, velocity, Doubts { left_out: corners, cornered: true, ..Doubts::default() })
         }
     } else {
-        let v = velocity::smoothed(time, v);
-        (velocity::without_noise(time, x, &v), v, Doubts::default())
+        let recorded = velocity::smoothed(time, x, v);
+        better_derived(time, x, &recorded).unwrap_or_else(|| {
+            let (displacement, velocity) = velocity::together(time, x, &recorded.velocity);
+            (displacement, velocity, Doubts::default())
+        })
     };
     (Arc::new(recording.seen_with(displacement, velocity, None)), doubts)
+}
+
+/// A motion whose velocity is derived and has no corners.
+fn without_corners(time: &[f64], x: &[f64], derived: &Derived, calming: Calming) -> Motion {
+    let Calm { displacement, velocity, noisy } = calming.over(time, x);
+    let ends = ends(time.len(), derived.half);
+    let left_out = velocity::joined(ends.into_iter().chain(derived.unresolved(time, x)).collect());
+    (displacement, velocity, Doubts { left_out, noisy, cornered: false, calming: Some(calming) })
+}
+
+/// A motion whose velocity has less noise than the recorded one where it is derived from the displacement.
+fn better_derived(time: &[f64], x: &[f64], recorded: &Smoothed) -> Option<Motion> {
+    if recorded.noise <= 0.0 || recorded.jumps {
+        return None;
+    }
+    let derived = velocity::from_displacement(time, x);
+    if !derived.corners.is_empty() {
+        return None;
+    }
+    let calming = Calming::of(time, x, &derived);
+    (derived.noise(time, calming.noise) < recorded.noise).then(|| without_corners(time, x, &derived, calming))
 }
 
 /// A motion with what is left of as much noise as it had, drawn anew; `None` where none is known.

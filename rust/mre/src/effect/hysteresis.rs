@@ -59,7 +59,11 @@ fn less(series: &[f64], by: &[f64]) -> Vec<f64> {
 /// Normalised hysteretic variable for a shape `[rho, sigma, n]`.
 pub(super) fn bouc_wen(scene: &Scene, shape: &[f64]) -> Vec<f64> {
     let mut w = vec![0.0; scene.len()];
-    hysteretic::trace(scene.time, scene.velocity, [shape[0], shape[1], shape[2]], &mut w);
+    hysteretic::trace(
+        [scene.time, scene.displacement, scene.velocity],
+        [shape[0], shape[1], shape[2]],
+        &mut w,
+    );
     // Samples too far apart for these parameters show nothing of it.
     if w.iter().all(|w| w.is_finite()) { w } else { vec![0.0; scene.len()] }
 }

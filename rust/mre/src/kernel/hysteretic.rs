@@ -103,8 +103,8 @@ pub(super) fn rk4<const FUSED: bool, P: Power, const N: usize>(
 
 /// The hysteretic variable at every sample, from rest; infinite throughout where the samples are too
 /// far apart for these parameters.
-pub(crate) fn trace(time: &[f64], velocity: &[f64], shape: [f64; 3], out: &mut [f64]) {
-    let plan = Plan::of(time, velocity);
+pub(crate) fn trace([time, x, velocity]: [&[f64]; 3], shape: [f64; 3], out: &mut [f64]) {
+    let plan = Plan::of(time, x, velocity);
     let stiffness = stiffness(shape);
     if plan.too_coarse(stiffness) {
         out.fill(f64::INFINITY);

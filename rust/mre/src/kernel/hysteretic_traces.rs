@@ -16,6 +16,8 @@ const NARROW: usize = 8;
 pub(crate) struct Motion<'a> {
     /// s.
     pub(crate) time: &'a [f64],
+    /// mm.
+    pub(crate) displacement: &'a [f64],
     /// mm/s.
     pub(crate) velocity: &'a [f64],
     /// Shapes.
@@ -60,7 +62,7 @@ struct Lane {
 
 impl Lane {
     fn new(motion: &Motion) -> Self {
-        let plan = Plan::of(motion.time, motion.velocity);
+        let plan = Plan::of(motion.time, motion.displacement, motion.velocity);
         let stiffness = stiffness(motion.shape);
         let hopeless = plan.too_coarse(stiffness);
         Self { shape: motion.shape, plan, stiffness, hopeless }
@@ -137,7 +139,7 @@ mod tests {
     use super::*;
 
     /// Motions of several lengths with shapes from smooth to stiff, one beyond all sub-steps.
-    fn motions() -> Vec<(Vec<f64>, Vec<f64>, [f64; 3])> {
+    fn motions() -> Vec<([Vec<f64>; 3], [f64; 3])> {
         let shapes = [
             [0.3, 0.8, 1.7],
             [0.3, 0.6, 1.0],
@@ -151,8 +153,9 @@ mod tests {
                 let n = 100 + 37 * (k as usize % 5);
                 let time: Vec<f64> = (0..n).map(|i| i as f64 / (100.0 + f64::from(k % 3))).collect();
                 let rate = 3.0 + f64::from(k);
+                let displacement = time.iter().map(|t| 20.0 / rate * (rate * t).sin()).collect();
                 let velocity = time.iter().map(|t| 20.0 * (rate * t).cos()).collect();
-                (time, velocity, shapes[k as usize % shapes.len()])
+                ([time, displacement, velocity], shapes[k as usize % shapes.len()])
             })
             .collect()
     }
@@ -160,14 +163,21 @@ mod tests {
     #[test]
     fn every_lane_is_as_the_trace_alone() {
         let motions = motions();
-        let jobs: Vec<Motion> =
-            motions.iter().map(|(time, velocity, shape)| Motion { time, velocity, shape: *shape }).collect();
+        let jobs: Vec<Motion> = motions
+            .iter()
+            .map(|([time, displacement, velocity], shape)| Motion {
+                time,
+                displacement,
+                velocity,
+                shape: *shape,
+            })
+            .collect();
         for isa in dispatch::available() {
             let together = traces_on(isa, &jobs);
             for (job, found) in jobs.iter().zip(&together) {
                 assert_eq!(traces_on(isa, &[*job])[0], *found, "{isa:?} {:?}", job.shape);
                 let mut alone = vec![0.0; job.time.len()];
-                trace(job.time, job.velocity, job.shape, &mut alone);
+                trace([job.time, job.displacement, job.velocity], job.shape, &mut alone);
                 let alike = alone.iter().zip(found).all(|(a, b)| a == b || (a - b).abs() < 1e-12);
                 assert!(alike, "{isa:?} {:?}", job.shape);
             }

@@ -18,6 +18,7 @@ pub(crate) mod filter;
 pub(crate) mod hysteretic;
 pub(crate) mod hysteretic_traces;
 pub(crate) mod intervals;
+pub(crate) mod jumps;
 mod lanes;
 pub(crate) mod recursion;
 pub(crate) mod relaxation;

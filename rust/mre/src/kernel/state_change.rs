@@ -136,7 +136,7 @@ pub(crate) fn trace(
         w = next;
         w
     };
-    let plan = Plan::of(time, velocity);
+    let plan = Plan::of(time, x, velocity);
     let mut found = Vec::with_capacity(time.len());
     found.push(0.0);
     for i in 0..plan.len() {
@@ -174,7 +174,7 @@ mod tests {
         let [time, x, v] = motion(400.0);
         for shape in [[0.3, 0.8, 1.7], [0.5, 0.5, 1.0], [0.2, 1.4, 2.0]] {
             let mut plain = vec![0.0; x.len()];
-            hysteretic::trace(&time, &v, shape, &mut plain);
+            hysteretic::trace([&time, &x, &v], shape, &mut plain);
             let off = largest_difference(
                 &plain,
                 &trace([&time, &x, &v], &Condition::Missing, shape, StateChange::default()),

@@ -36,7 +36,7 @@ impl Past {
         };
         let (time, x) = (recording.time(), recording.displacement());
         // Noise of a velocity at rest would be a path.
-        let v = velocity::smoothed(time, recording.velocity());
+        let v = velocity::smoothed(time, x, recording.velocity()).velocity;
         let mut past = self;
         let (first, last) = samples.into_inner();
         past.displacement = past.displacement.max(x[first].abs());

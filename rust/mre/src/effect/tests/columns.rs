@@ -80,7 +80,8 @@ fn the_bouc_wen_law_is_that_of_the_base_model() {
     let stage = Stage::sine(3.0, 1.0, 4.0);
     let mut wanted = vec![0.0; stage.force.len()];
     let shape = [1.3, 0.7, 1.8];
-    hysteretic::trace(stage.recording.time(), stage.recording.velocity(), shape, &mut wanted);
+    let seen = &stage.recording;
+    hysteretic::trace([seen.time(), seen.displacement(), seen.velocity()], shape, &mut wanted);
     assert_eq!(column("hysteresis", "Bouc-Wen", &stage.scene(), &shape), wanted);
 }
 

@@ -1,0 +1,83 @@
+//! Where a velocity jumps between two samples: the motion has a corner there, as a triangle wave has.
+//!
+//! A cubic through such samples swings an eighth of the jump beyond them on both sides, and a hysteretic variable would
+//! turn after another path: with 200 samples a cycle by half a hundredth of the amplitude.
+
+/// A jump is so many times what the velocity changes by in the intervals before and after.
+const SHARP: f64 = 4.0;
+/// One within two intervals, in which the corner is rounded, so many times.
+const SHARP_IN_TWO: f64 = 8.0;
+/// Intervals before and after.
+const BESIDE: usize = 2;
+/// And it is this share of the largest speed at least.
+const LEAST: f64 = 0.05;
+/// The place of a corner may be off by so much of an interval: displacements are noisy.
+const OFF: f64 = 0.25;
+
+/// Intervals between samples in which the velocity jumps, in order, with the share of the interval that passes before:
+/// two constant velocities that cover the distance between the displacements.
+pub(crate) fn jumps(time: &[f64], displacement: &[f64], velocity: &[f64]) -> Vec<(usize, f64)> {
+    let largest = velocity.iter().fold(0.0_f64, |largest, v| largest.max(v.abs()));
+    let change = |i: usize| velocity[i + 1] - velocity[i];
+    let spans = velocity.len().saturating_sub(1);
+    // Of so many intervals from one on, beside which little changes.
+    let sharp = |i: usize, wide: usize, times: f64| {
+        let jump = (velocity[i + wide] - velocity[i]).abs();
+        let beside = || (i - BESIDE..i).chain(i + wide..i + wide + BESIDE);
+        let within = i + wide + BESIDE <= spans && (i..i + wide).all(|k| change(k).abs() > LEAST * largest);
+        within && beside().all(|k| jump > times * change(k).abs())
+    };
+    let corner = |i: usize| {
+        let (step, way) = (time[i + 1] - time[i], displacement[i + 1] - displacement[i]);
+        let share = (velocity[i + 1] - way / step) / change(i);
+        (share > -OFF && share < 1.0 + OFF).then_some((i, share.clamp(0.0, 1.0)))
+    };
+    let mut found: Vec<(usize, f64)> = Vec::new();
+    for i in BESIDE..spans.saturating_sub(BESIDE) {
+        if sharp(i, 1, SHARP) {
+            found.extend(corner(i));
+        } else if sharp(i, 2, SHARP_IN_TWO)
+            && let (Some(first), Some(second)) = (corner(i), corner(i + 1))
+        {
+            found.extend([first, second]);
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::jumps;
+
+    #[test]
+    fn a_corner_is_found_between_samples_and_a_sine_has_none() {
+        let time: Vec<f64> = (0..60).map(|i| f64::from(i) / 100.0).collect();
+        for corner in [0.2, 0.203, 0.2071, 0.2099] {
+            let x: Vec<f64> = time.iter().map(|t| 30.0 * (corner - (t - corner).abs())).collect();
+            let v: Vec<f64> = time.iter().map(|t| if *t < corner { 30.0 } else { -30.0 }).collect();
+            let found = jumps(&time, &x, &v);
+            assert_eq!(found.len(), 1);
+            let (i, share) = found[0];
+            assert!((time[i] + 0.01 * share - corner).abs() < 1e-12, "{found:?}");
+        }
+        // Rounded over an interval that a sample is in.
+        let (corner, round) = (0.2, 0.005);
+        let v: Vec<f64> =
+            time.iter().map(|t| 30.0 * ((corner + 0.3 * round - t) / round).clamp(-1.0, 1.0)).collect();
+        let way = |t: f64| {
+            let s = ((t - corner - 0.3 * round) / round).clamp(-1.0, 1.0);
+            -30.0 * (0.5 * round * s * s + (t - corner - 0.3 * round - round * s) * s)
+        };
+        let x: Vec<f64> = time.iter().map(|t| way(*t)).collect();
+        assert_eq!(jumps(&time, &x, &v).iter().map(|(i, _)| *i).collect::<Vec<_>>(), [19, 20]);
+        for samples in [5.3, 6.0, 8.0, 22.0, 200.0] {
+            for phase in 0..10 {
+                let at = |i: usize| std::f64::consts::TAU * (i as f64 / samples + 0.1 * f64::from(phase));
+                let x: Vec<f64> = (0..60).map(|i| at(i).sin()).collect();
+                let v: Vec<f64> =
+                    (0..60).map(|i| 100.0 * std::f64::consts::TAU / samples * at(i).cos()).collect();
+                assert_eq!(jumps(&time, &x, &v), [], "{samples} samples a cycle");
+            }
+        }
+    }
+}
