@@ -13,6 +13,9 @@ use crate::velocity::{self, Calm, Calming, Derived, Smoothed};
 /// recording: an effect that changes with time would seem to explain that.
 const END: usize = 4;
 
+/// Noise of a derived velocity is known, and what it does to a fit is taken off: it may be so many times that of a recorded one.
+const KNOWN: f64 = 2.0;
+
 /// In what a motion whose velocity is derived is not to be trusted.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Doubts {
@@ -64,7 +67,7 @@ fn without_corners(time: &[f64], x: &[f64], derived: &Derived, calming: Calming)
     (displacement, velocity, Doubts { left_out, noisy, cornered: false, calming: Some(calming) })
 }
 
-/// A motion whose velocity has less noise than the recorded one where it is derived from the displacement.
+/// A motion whose velocity has not much more noise than the recorded one where it is derived from the displacement.
 fn better_derived(time: &[f64], x: &[f64], recorded: &Smoothed) -> Option<Motion> {
     if recorded.noise <= 0.0 || recorded.jumps {
         return None;
@@ -74,7 +77,8 @@ fn better_derived(time: &[f64], x: &[f64], recorded: &Smoothed) -> Option<Motion
         return None;
     }
     let calming = Calming::of(time, x, &derived);
-    (derived.noise(time, calming.noise) < recorded.noise).then(|| without_corners(time, x, &derived, calming))
+    (derived.noise(time, calming.noise) < KNOWN * recorded.noise)
+        .then(|| without_corners(time, x, &derived, calming))
 }
 
 /// A motion with what is left of as much noise as it had, drawn anew; `None` where none is known.

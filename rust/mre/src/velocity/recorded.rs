@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
-use super::PART_TERMS;
 use super::local::{NARROWEST, TERMS};
 use super::window::Window;
+use super::{Calming, Derived, PART_TERMS};
 use crate::kernel::filter::dot;
 use crate::kernel::intervals::Plan;
 use crate::kernel::jumps::jumps;
@@ -41,10 +41,11 @@ pub fn smoothed(time: &[f64], displacement: &[f64], velocity: &[f64]) -> Smoothe
     for part in between(&corners, velocity.len()).filter(|part| part.len() > 2 * NARROWEST) {
         let (time, v) = (&time[part.clone()], &velocity[part.clone()]);
         let window = Window::best(time, v, WIDEST, terms);
-        let smooth = window.over(time, v).1;
+        let (slope, smooth) = window.over(time, v);
         let share = window.leverage();
         left += squares(&smooth, v) * share / (1.0 - share).max(f64::MIN_POSITIVE);
-        found[part].copy_from_slice(&smooth);
+        let calm = if corners.is_empty() { calmed(time, v, [slope, smooth], window.half) } else { smooth };
+        found[part].copy_from_slice(&calm);
     }
     let mut taken: Vec<f64> = found.iter().zip(velocity).map(|(a, b)| (a - b).powi(2)).collect();
     let count = taken.len() as f64;
@@ -56,6 +57,12 @@ pub fn smoothed(time: &[f64], displacement: &[f64], velocity: &[f64]) -> Smoothe
     } else {
         Smoothed { velocity: velocity.to_vec(), noise: 0.0, jumps: !corners.is_empty() }
     }
+}
+
+/// What is left of a series where it is slower than elsewhere: noise of a velocity at rest would move a path.
+fn calmed(time: &[f64], series: &[f64], [velocity, displacement]: [Vec<f64>; 2], half: usize) -> Vec<f64> {
+    let smooth = Derived { velocity, displacement, half, corners: Vec::new() };
+    Calming::of(time, series, &smooth).over(time, series).displacement
 }
 
 /// Displacement in mm less the noise that a recorded velocity in mm/s does not share, and the velocity less that which
