@@ -156,14 +156,15 @@ def jumps(motion: Motion) -> dict[int, float]:
 
     def sharp(i: int, wide: int, times: float) -> bool:
         jump = float(abs(v[i + wide] - v[i]))
-        beside = [k for k in range(i - 2, i + wide + 2) if not i <= k < i + wide]
+        near = range(max(0, i - 2), min(len(change), i + wide + 2))
+        beside = [k for k in near if not i <= k < i + wide]
         return (
-            beside[-1] < len(change)
+            i + wide < len(change)
             and all(float(abs(change[k])) > 0.05 * largest for k in range(i, i + wide))
             and all(jump > times * float(abs(change[k])) for k in beside)
         )
 
-    for i in range(2, len(change) - 2):
+    for i in range(1, len(change)):
         if sharp(i, 1, 4.0):
             found |= corner(i)
         elif sharp(i, 2, 8.0):

@@ -9,10 +9,6 @@ use crate::deviate::normal;
 use crate::recording::Recording;
 use crate::velocity::{self, Calm, Calming, Derived, Smoothed};
 
-/// A derived velocity has about twice the noise and more within one part in so many of half a window from an end of its
-/// recording: an effect that changes with time would seem to explain that.
-const END: usize = 4;
-
 /// Noise of a derived velocity is known, and what it does to a fit is taken off: it may be so many times that of a recorded one.
 const KNOWN: f64 = 2.0;
 
@@ -100,6 +96,6 @@ pub(super) fn shaken(
 
 /// Samples at the ends of so many whose velocity is derived over this half window.
 fn ends(samples: usize, half: usize) -> Vec<Range<usize>> {
-    let count = half.div_ceil(END);
+    let count = half.div_ceil(velocity::END);
     vec![0..count, samples - count..samples]
 }

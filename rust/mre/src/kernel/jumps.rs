@@ -3,10 +3,10 @@
 //! A cubic through such samples swings an eighth of the jump beyond them on both sides, and a hysteretic variable would
 //! turn after another path: with 200 samples a cycle by half a hundredth of the amplitude.
 
-/// A jump is so many times what the velocity changes by in the intervals before and after.
-const SHARP: f64 = 4.0;
-/// One within two intervals, in which the corner is rounded, so many times.
-const SHARP_IN_TWO: f64 = 8.0;
+/// Intervals that a jump takes, and how many times what changes in the intervals before and after it is at least: one, or
+/// two, in which a corner is rounded.
+pub(crate) const ALONE: (usize, f64) = (1, 4.0);
+pub(crate) const IN_TWO: (usize, f64) = (2, 8.0);
 /// Intervals before and after.
 const BESIDE: usize = 2;
 /// And it is this share of the largest speed at least.
@@ -14,29 +14,33 @@ const LEAST: f64 = 0.05;
 /// The place of a corner may be off by so much of an interval: displacements are noisy.
 const OFF: f64 = 0.25;
 
+/// True where values jump in so many intervals from one on, beside which little changes, two on either side or, at an
+/// end, one; the largest value is known.
+pub(crate) fn sharp(values: &[f64], largest: f64, i: usize, (wide, times): (usize, f64)) -> bool {
+    let spans = values.len().saturating_sub(1);
+    if i == 0 || i + wide >= spans {
+        return false;
+    }
+    let change = |k: usize| (values[k + 1] - values[k]).abs();
+    let jump = (values[i + wide] - values[i]).abs();
+    let mut beside = (i.saturating_sub(BESIDE)..i).chain(i + wide..(i + wide + BESIDE).min(spans));
+    (i..i + wide).all(|k| change(k) > LEAST * largest) && beside.all(|k| jump > times * change(k))
+}
+
 /// Intervals between samples in which the velocity jumps, in order, with the share of the interval that passes before:
 /// two constant velocities that cover the distance between the displacements.
 pub(crate) fn jumps(time: &[f64], displacement: &[f64], velocity: &[f64]) -> Vec<(usize, f64)> {
     let largest = velocity.iter().fold(0.0_f64, |largest, v| largest.max(v.abs()));
-    let change = |i: usize| velocity[i + 1] - velocity[i];
-    let spans = velocity.len().saturating_sub(1);
-    // Of so many intervals from one on, beside which little changes.
-    let sharp = |i: usize, wide: usize, times: f64| {
-        let jump = (velocity[i + wide] - velocity[i]).abs();
-        let beside = || (i - BESIDE..i).chain(i + wide..i + wide + BESIDE);
-        let within = i + wide + BESIDE <= spans && (i..i + wide).all(|k| change(k).abs() > LEAST * largest);
-        within && beside().all(|k| jump > times * change(k).abs())
-    };
     let corner = |i: usize| {
         let (step, way) = (time[i + 1] - time[i], displacement[i + 1] - displacement[i]);
-        let share = (velocity[i + 1] - way / step) / change(i);
+        let share = (velocity[i + 1] - way / step) / (velocity[i + 1] - velocity[i]);
         (share > -OFF && share < 1.0 + OFF).then_some((i, share.clamp(0.0, 1.0)))
     };
     let mut found: Vec<(usize, f64)> = Vec::new();
-    for i in BESIDE..spans.saturating_sub(BESIDE) {
-        if sharp(i, 1, SHARP) {
+    for i in 0..velocity.len() {
+        if sharp(velocity, largest, i, ALONE) {
             found.extend(corner(i));
-        } else if sharp(i, 2, SHARP_IN_TWO)
+        } else if sharp(velocity, largest, i, IN_TWO)
             && let (Some(first), Some(second)) = (corner(i), corner(i + 1))
         {
             found.extend([first, second]);

@@ -1,0 +1,116 @@
+//! Corners between two samples of a motion: slopes of the displacement jump there, and polynomials across one ring.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use super::local::{NARROWEST, TERMS};
+use super::window::Window;
+use super::{Derived, END, PART_TERMS, joined};
+use crate::kernel::jumps::{ALONE, IN_TWO, sharp};
+
+/// A jump of the slope is so many times the median of its changes.
+const STANDS_OUT: f64 = 12.0;
+
+/// The last samples before corners of a displacement in mm, in rising order. One within two samples of an end is not seen.
+fn breaks(time: &[f64], displacement: &[f64]) -> Vec<usize> {
+    let pairs = time.windows(2).zip(displacement.windows(2));
+    let slopes: Vec<f64> = pairs.map(|(t, x)| (x[1] - x[0]) / (t[1] - t[0])).collect();
+    let mut changes: Vec<f64> = slopes.windows(2).map(|s| (s[1] - s[0]).abs()).collect();
+    let middle = changes.len() / 2;
+    if changes.is_empty() {
+        return Vec::new();
+    }
+    let usual = *changes.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let largest = slopes.iter().fold(0.0_f64, |largest, v| largest.max(v.abs()));
+    let stands_out = |i: usize, wide: usize| (slopes[i + wide] - slopes[i]).abs() > STANDS_OUT * usual;
+    let mut found: Vec<usize> = Vec::new();
+    for i in 0..slopes.len() {
+        if sharp(&slopes, largest, i, ALONE) && stands_out(i, 1) {
+            // Beside a sample, in the interval whose slope has a little of both.
+            let mixed = |a: usize, b: usize| (slopes[a] - slopes[b]).abs();
+            found.push(if mixed(i - 1, i) > mixed(i + 1, i + 2) { i } else { i + 1 });
+        } else if sharp(&slopes, largest, i, IN_TWO) && stands_out(i, 2) {
+            found.push(i + 1);
+        }
+    }
+    found
+}
+
+/// Velocity and displacement between corners, each part on its own; `None` where there are no corners.
+pub(super) fn between_breaks(time: &[f64], displacement: &[f64]) -> Option<Derived> {
+    let breaks = breaks(time, displacement);
+    if breaks.is_empty() {
+        return None;
+    }
+    let starts = std::iter::once(0).chain(breaks.iter().map(|i| i + 1));
+    let ends = breaks.iter().map(|i| i + 1).chain(std::iter::once(time.len()));
+    let parts: Vec<Range<usize>> = starts.zip(ends).map(|(start, end)| start..end).collect();
+    let fits: Vec<(Vec<f64>, Vec<f64>, usize)> = parts
+        .par_iter()
+        .map(|part| {
+            let (time, x) = (&time[part.clone()], &displacement[part.clone()]);
+            if part.len() < 3 {
+                let slope = if part.len() == 2 { (x[1] - x[0]) / (time[1] - time[0]) } else { 0.0 };
+                return (vec![slope; part.len()], x.to_vec(), 1);
+            }
+            let window = if part.len() > 2 * NARROWEST {
+                Window::best(time, x, usize::MAX, &PART_TERMS)
+            } else {
+                Window { half: (part.len() - 1) / 2, terms: 2 }
+            };
+            let (velocity, smooth) = window.over(time, x);
+            (velocity, smooth, window.half)
+        })
+        .collect();
+    let half = fits.iter().map(|fit| fit.2).max().unwrap_or(TERMS);
+    let mut derived = Derived { velocity: Vec::new(), displacement: Vec::new(), half, corners: Vec::new() };
+    let mut doubted = Vec::new();
+    for (part, (velocity, smooth, half)) in parts.iter().zip(fits) {
+        derived.velocity.extend(velocity);
+        derived.displacement.extend(smooth);
+        let noisy = half.div_ceil(END).min(part.len());
+        doubted.extend([part.start..part.start + noisy, part.end - noisy..part.end]);
+    }
+    derived.corners = joined(doubted);
+    Some(derived)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::from_displacement;
+    use super::breaks;
+
+    #[test]
+    fn the_velocity_of_a_triangle_is_that_of_its_flanks() {
+        let motion = |t: f64| 4.0 / std::f64::consts::PI * (std::f64::consts::TAU * t).sin().asin();
+        for samples in [24.3, 30.0, 61.7, 200.0] {
+            // Six cycles, that end on a flank.
+            let time: Vec<f64> =
+                (0..2000).map(|i| f64::from(i) / samples + 0.013).take_while(|t| *t < 6.0).collect();
+            let x: Vec<f64> = time.iter().map(|t| motion(*t)).collect();
+            let derived = from_displacement(&time, &x);
+            for (i, v) in derived.velocity.iter().enumerate() {
+                let phase = (time[i] + 0.25).rem_euclid(1.0);
+                let wanted = if phase < 0.5 { 8.0 } else { -8.0 };
+                let known = derived.corners.iter().any(|range| range.contains(&i));
+                assert!(known || (v - wanted).abs() < 1e-6, "{v} at sample {i} of {samples} a cycle");
+            }
+            let left_out: usize = derived.corners.iter().map(ExactSizeIterator::len).sum();
+            assert!(3 * left_out < time.len(), "{left_out} of {} samples", time.len());
+        }
+    }
+
+    #[test]
+    fn smooth_and_noisy_motions_have_no_corner() {
+        let time: Vec<f64> = (0..3000).map(|i| f64::from(i) / 100.0).collect();
+        let noise = |i: usize| 0.02 * ((i * i) as f64 * 0.618).sin();
+        for frequency in [0.3, 1.0, 5.0, 16.0] {
+            let sine = |t: f64| 5.0 * (std::f64::consts::TAU * frequency * t).sin();
+            let x: Vec<f64> = time.iter().map(|t| sine(*t)).collect();
+            assert_eq!(breaks(&time, &x), [], "{frequency} Hz");
+            let noisy: Vec<f64> = x.iter().enumerate().map(|(i, x)| x + noise(i)).collect();
+            assert_eq!(breaks(&time, &noisy), [], "{frequency} Hz with noise");
+        }
+    }
+}
