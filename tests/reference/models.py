@@ -155,13 +155,13 @@ def jumps(motion: Motion) -> dict[int, float]:
         return {i: min(max(share, 0.0), 1.0)} if -0.25 < share < 1.25 else {}
 
     def sharp(i: int, wide: int, times: float) -> bool:
+        if i + wide >= len(change):
+            return False
         jump = float(abs(v[i + wide] - v[i]))
         near = range(max(0, i - 2), min(len(change), i + wide + 2))
         beside = [k for k in near if not i <= k < i + wide]
-        return (
-            i + wide < len(change)
-            and all(float(abs(change[k])) > 0.05 * largest for k in range(i, i + wide))
-            and all(jump > times * float(abs(change[k])) for k in beside)
+        return all(float(abs(change[k])) > 0.05 * largest for k in range(i, i + wide)) and all(
+            jump > times * float(abs(change[k])) for k in beside
         )
 
     for i in range(1, len(change)):

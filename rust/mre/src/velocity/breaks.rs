@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
+use super::corners::corners;
 use super::local::{NARROWEST, TERMS};
 use super::window::Window;
 use super::{Derived, END, PART_TERMS, joined};
@@ -11,6 +12,9 @@ use crate::kernel::jumps::{ALONE, IN_TWO, sharp};
 
 /// A jump of the slope is so many times the median of its changes.
 const STANDS_OUT: f64 = 12.0;
+
+/// Velocity and displacement of a part, and the half window.
+type Fit = (Vec<f64>, Vec<f64>, usize);
 
 /// The last samples before corners of a displacement in mm, in rising order. One within two samples of an end is not seen.
 fn breaks(time: &[f64], displacement: &[f64]) -> Vec<usize> {
@@ -37,7 +41,7 @@ fn breaks(time: &[f64], displacement: &[f64]) -> Vec<usize> {
     found
 }
 
-/// Velocity and displacement between corners, each part on its own; `None` where there are no corners.
+/// Velocity and displacement between corners, each part on its own; `None` where there are no corners, or others.
 pub(super) fn between_breaks(time: &[f64], displacement: &[f64]) -> Option<Derived> {
     let breaks = breaks(time, displacement);
     if breaks.is_empty() {
@@ -46,13 +50,13 @@ pub(super) fn between_breaks(time: &[f64], displacement: &[f64]) -> Option<Deriv
     let starts = std::iter::once(0).chain(breaks.iter().map(|i| i + 1));
     let ends = breaks.iter().map(|i| i + 1).chain(std::iter::once(time.len()));
     let parts: Vec<Range<usize>> = starts.zip(ends).map(|(start, end)| start..end).collect();
-    let fits: Vec<(Vec<f64>, Vec<f64>, usize)> = parts
+    let fits: Option<Vec<Fit>> = parts
         .par_iter()
         .map(|part| {
             let (time, x) = (&time[part.clone()], &displacement[part.clone()]);
             if part.len() < 3 {
                 let slope = if part.len() == 2 { (x[1] - x[0]) / (time[1] - time[0]) } else { 0.0 };
-                return (vec![slope; part.len()], x.to_vec(), 1);
+                return Some((vec![slope; part.len()], x.to_vec(), 1));
             }
             let window = if part.len() > 2 * NARROWEST {
                 Window::best(time, x, usize::MAX, &PART_TERMS)
@@ -60,9 +64,12 @@ pub(super) fn between_breaks(time: &[f64], displacement: &[f64]) -> Option<Deriv
                 Window { half: (part.len() - 1) / 2, terms: 2 }
             };
             let (velocity, smooth) = window.over(time, x);
-            (velocity, smooth, window.half)
+            // A corner that is rounded, or lost in noise.
+            let whole = corners(x, &smooth, window.half).is_empty();
+            whole.then_some((velocity, smooth, window.half))
         })
         .collect();
+    let fits = fits?;
     let half = fits.iter().map(|fit| fit.2).max().unwrap_or(TERMS);
     let mut derived = Derived { velocity: Vec::new(), displacement: Vec::new(), half, corners: Vec::new() };
     let mut doubted = Vec::new();
