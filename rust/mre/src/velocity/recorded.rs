@@ -19,6 +19,9 @@ const NEGLIGIBLE: f64 = 1e-4;
 /// follows displacement, velocity or acceleration is another error.
 const WANDER: f64 = 3e-4;
 
+/// Half window in samples, at least, over which the two come together again.
+const SLOW: usize = 20;
+
 /// Noise has a median square above this share of its mean square; that of Gaussian noise is 0.45.
 const EVERYWHERE: f64 = 0.1;
 
@@ -85,7 +88,9 @@ pub fn together(time: &[f64], displacement: &[f64], velocity: &[f64]) -> (Vec<f6
     if size(&wander) < WANDER.powi(2) * size(displacement) {
         return (x, velocity.to_vec());
     }
-    let strays = window.over(time, &wander).0;
+    // A line has the calmest slope, also at the ends.
+    let slow = Window { half: SLOW.max(window.half).min((time.len() - 1) / 2), terms: 2 };
+    let strays = slow.over(time, &wander).0;
     (x, velocity.iter().zip(strays).map(|(v, strays)| v + strays).collect())
 }
 
