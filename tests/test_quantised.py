@@ -6,9 +6,10 @@ from mre_core import Recording, diagnose
 
 
 def campaign(seed: int) -> list[Recording]:
-    """A sine of whole samples a cycle and a sweep on a sinh device, its force in steps of 3 % of its rms and noise of a fourteenth of one."""
+    """A repeated sine and a sweep on a sinh device, the force in steps of 3 % of its rms."""
     rng = np.random.default_rng([31, seed])
-    frequency, largest, bend = rng.choice([1.25, 1.5, 2.0]), rng.uniform(4.0, 8.0), rng.uniform(1.5, 2.5)
+    frequency = rng.choice([1.25, 1.5, 2.0])
+    largest, bend = rng.uniform(4.0, 8.0), rng.uniform(1.5, 2.5)
     t = np.arange(11_000) / 500
     start = np.minimum(1.0, t)
     motions = [

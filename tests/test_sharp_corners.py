@@ -10,7 +10,7 @@ Array = np.ndarray
 
 
 def triangle(samples: float, seed: int) -> tuple[Array, Array, Array, Array]:
-    """Time, displacement, velocity and, on a finer grid, displacement of waves of two sizes with sharp corners."""
+    """Time, displacement, velocity and, on a finer grid, displacement of sharp waves of two sizes."""
     rng = np.random.default_rng([41, seed])
     t = np.arange(round(40 * samples) * FINER + 1) / (samples * FINER)
     phase = t + rng.uniform(0, 0.25)

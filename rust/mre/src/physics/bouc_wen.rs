@@ -12,8 +12,8 @@
 //! Source: Ikhouane and Rodellar 2005, <https://doi.org/10.1007/s11071-005-0069-3>, the normalised
 //! form of eq. 1 and 2 of Yu, Li and Li, ISARC 2014; limits
 //! of sigma from Erlicher and Point 2004, <https://doi.org/10.1016/j.crme.2003.10.009>.
-//! Integrated by RK4 on the samples with the velocity halfway between them from a cubic, or both sides of a corner, sub-stepped where
-//! [`STEP`] asks for it; where an effect changes the law of its state, from turn to turn.
+//! Integrated by RK4 on the samples with the velocity halfway between them from a cubic, or on both sides of a corner,
+//! sub-stepped where [`STEP`] asks for it; where an effect changes the law of its state, from turn to turn.
 //! Known limit: short unload-reload cycles drift.
 
 use rayon::prelude::*;
