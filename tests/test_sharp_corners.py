@@ -31,7 +31,7 @@ def hysteretic(x: Array) -> Array:
 
         def rate(w: float, way: float = way) -> float:
             with_it = np.sign(w) == np.sign(way)
-            return 0.9 * way * (1 - abs(w) ** 1.5 * (1.0 if with_it else 1 - 2 * 0.7))
+            return float(0.9 * way * (1 - abs(w) ** 1.5 * (1.0 if with_it else 1 - 2 * 0.7)))
 
         half = w[i] + 0.5 * rate(w[i])
         w[i + 1] = w[i] + rate(half)
