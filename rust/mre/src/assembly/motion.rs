@@ -11,6 +11,8 @@ use crate::velocity::{self, Calm, Calming, Derived, Smoothed};
 
 /// Noise of a derived velocity is known, and what it does to a fit is taken off: it may be so many times that of a recorded one.
 const KNOWN: f64 = 2.0;
+/// It differs from the recorded one by as much as that has noise, up to this factor.
+const ALIKE: f64 = 1.2;
 
 /// In what a motion whose velocity is derived is not to be trusted.
 #[derive(Debug, Clone, Default)]
@@ -47,7 +49,7 @@ pub(super) fn of_one_motion(recording: &Recording) -> (Arc<Recording>, Doubts) {
         }
     } else {
         let recorded = velocity::smoothed(time, x, v);
-        better_derived(time, x, &recorded).unwrap_or_else(|| {
+        better_derived([time, x, v], &recorded).unwrap_or_else(|| {
             let (displacement, velocity) = velocity::together(time, x, &recorded.velocity);
             (displacement, velocity, Doubts::default())
         })
@@ -64,7 +66,7 @@ fn without_corners(time: &[f64], x: &[f64], derived: &Derived, calming: Calming)
 }
 
 /// A motion whose velocity has not much more noise than the recorded one where it is derived from the displacement.
-fn better_derived(time: &[f64], x: &[f64], recorded: &Smoothed) -> Option<Motion> {
+fn better_derived([time, x, v]: [&[f64]; 3], recorded: &Smoothed) -> Option<Motion> {
     if recorded.noise <= 0.0 || recorded.jumps {
         return None;
     }
@@ -73,8 +75,11 @@ fn better_derived(time: &[f64], x: &[f64], recorded: &Smoothed) -> Option<Motion
         return None;
     }
     let calming = Calming::of(time, x, &derived);
-    (derived.noise(time, calming.noise) < KNOWN * recorded.noise)
-        .then(|| without_corners(time, x, &derived, calming))
+    // Otherwise the window, or the displacement, misses some of the motion.
+    let squares: f64 = derived.velocity.iter().zip(v).map(|(a, b)| (a - b).powi(2)).sum();
+    let alike = squares < (ALIKE * recorded.noise).powi(2) * time.len() as f64;
+    let calmer = derived.noise(time, calming.noise) < KNOWN * recorded.left;
+    (alike && calmer).then(|| without_corners(time, x, &derived, calming))
 }
 
 /// A motion with what is left of as much noise as it had, drawn anew; `None` where none is known.

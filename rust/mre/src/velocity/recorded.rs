@@ -30,8 +30,10 @@ const EVERYWHERE: f64 = 0.1;
 pub struct Smoothed {
     /// mm/s.
     pub velocity: Vec<f64>,
-    /// Standard deviation of the noise that is left, mm/s; zero where there was none to be taken off.
+    /// Standard deviation of the noise that it had, mm/s; zero where there was none to be taken off.
     pub noise: f64,
+    /// The same of what is left of it, mm/s.
+    pub left: f64,
     /// True where it jumps between samples, as a slope of the displacement cannot.
     pub jumps: bool,
 }
@@ -40,13 +42,15 @@ pub struct Smoothed {
 pub fn smoothed(time: &[f64], displacement: &[f64], velocity: &[f64]) -> Smoothed {
     let corners = jumps(time, displacement, velocity);
     let terms: &[usize] = if corners.is_empty() { &[TERMS] } else { &PART_TERMS };
-    let (mut found, mut left) = (velocity.to_vec(), 0.0);
+    let (mut found, mut noise, mut left) = (velocity.to_vec(), 0.0, 0.0);
     for part in between(&corners, velocity.len()).filter(|part| part.len() > 2 * NARROWEST) {
         let (time, v) = (&time[part.clone()], &velocity[part.clone()]);
         let window = Window::best(time, v, WIDEST, terms);
         let (slope, smooth) = window.over(time, v);
         let share = window.leverage();
-        left += squares(&smooth, v) * share / (1.0 - share).max(f64::MIN_POSITIVE);
+        let square = squares(&smooth, v) / (1.0 - share).max(f64::MIN_POSITIVE);
+        noise += square;
+        left += share * square;
         let calm = if corners.is_empty() { calmed(time, v, [slope, smooth], window.half) } else { smooth };
         found[part].copy_from_slice(&calm);
     }
@@ -55,10 +59,12 @@ pub fn smoothed(time: &[f64], displacement: &[f64], velocity: &[f64]) -> Smoothe
     let mean = taken.iter().sum::<f64>() / count;
     let middle = taken.len() / 2;
     let (_, median, _) = taken.select_nth_unstable_by(middle, f64::total_cmp);
+    let jumps = !corners.is_empty();
     if apart(&found, velocity) && *median > EVERYWHERE * mean {
-        Smoothed { velocity: found, noise: (left / count).sqrt(), jumps: !corners.is_empty() }
+        let [noise, left] = [noise, left].map(|squares| (squares / count).sqrt());
+        Smoothed { velocity: found, noise, left, jumps }
     } else {
-        Smoothed { velocity: velocity.to_vec(), noise: 0.0, jumps: !corners.is_empty() }
+        Smoothed { velocity: velocity.to_vec(), noise: 0.0, left: 0.0, jumps }
     }
 }
 
