@@ -164,12 +164,20 @@ def jumps(motion: Motion) -> dict[int, float]:
             jump > times * float(abs(change[k])) for k in beside
         )
 
+    def even(i: int, wide: int) -> bool:
+        steps = np.diff(t[max(0, i - 2) : min(len(t), i + wide + 3)])
+        return bool(np.all(abs(steps - (t[i + 1] - t[i])) < 0.01 * (t[i + 1] - t[i])))
+
+    far = math.inf
     for i in range(1, len(change)):
-        if sharp(i, 1, 4.0):
-            found |= corner(i)
-        elif sharp(i, 2, 8.0):
-            two = corner(i) | corner(i + 1)
-            found |= two if len(two) == 2 else {}
+        wide = next((w for w, times in ((1, 4.0), (2, 8.0)) if sharp(i, w, times) and even(i, w)), 0)
+        places = [corner(k) for k in range(i, i + wide)]
+        if wide and all(places) and max(found, default=-1) < i:
+            far = min(far, float(abs(v[i + wide] - v[i])))
+            for place in places:
+                found |= place
+    if found and far <= 12.0 * float(np.sort(np.abs(change))[len(change) // 2]):
+        return {}
     return found
 
 

@@ -34,13 +34,13 @@ pub(super) enum Backlash {
 
 /// Gaps that are tried where the velocity jumps with them: the smallest over the largest displacement, by which factor
 /// they rise, and how many they are.
-const SMALLEST: f64 = 8e-4;
+const SMALLEST: f64 = 4.8e-4;
 const RATIO: f64 = 1.6;
-const COUNT: i32 = 13;
+const COUNT: i32 = 14;
 
 /// A gap below this share of the largest displacement is none: where a motion rests, it would take off what is left of its
 /// noise.
-const LEAST: f64 = 7e-4;
+const LEAST: f64 = 4e-4;
 
 /// Gaps and their middles that are tried, over the largest displacement.
 const GAPS: [f64; 4] = [0.01, 0.03, 0.08, 0.2];

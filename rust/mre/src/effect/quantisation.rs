@@ -14,8 +14,8 @@ const FINEST: f64 = 1e-4;
 /// Steps are multiples of the lattice to this share of it: files round.
 const TOLERANCE: f64 = 0.02;
 
-/// Terms of the series. More would leave a rest that is not noise where the sensor is quiet and the model a little off.
-const TERMS: usize = 4;
+/// Terms of the series. More would leave a rest that is not noise where the sensor is quiet.
+const TERMS: usize = 2;
 
 /// Saw tooth of the force of the device with its effects.
 #[derive(Debug, Clone, Copy)]

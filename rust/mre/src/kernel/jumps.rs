@@ -11,6 +11,10 @@ pub(crate) const IN_TWO: (usize, f64) = (2, 8.0);
 const BESIDE: usize = 2;
 /// And it is this share of the largest speed at least.
 const LEAST: f64 = 0.05;
+/// Steps that differ by more than this share are uneven.
+const UNEVEN: f64 = 0.01;
+/// A jump is so many times the median of all changes.
+pub(crate) const STANDS_OUT: f64 = 12.0;
 /// The place of a corner may be off by so much of an interval: displacements are noisy.
 const OFF: f64 = 0.25;
 
@@ -36,17 +40,43 @@ pub(crate) fn jumps(time: &[f64], displacement: &[f64], velocity: &[f64]) -> Vec
         let share = (velocity[i + 1] - way / step) / (velocity[i + 1] - velocity[i]);
         (share > -OFF && share < 1.0 + OFF).then_some((i, share.clamp(0.0, 1.0)))
     };
-    let mut found: Vec<(usize, f64)> = Vec::new();
+    let (mut found, mut far): (Vec<(usize, f64)>, f64) = (Vec::new(), f64::INFINITY);
     for i in 0..velocity.len() {
-        if sharp(velocity, largest, i, ALONE) {
-            found.extend(corner(i));
-        } else if sharp(velocity, largest, i, IN_TWO)
-            && let (Some(first), Some(second)) = (corner(i), corner(i + 1))
+        let wide = [ALONE, IN_TWO]
+            .into_iter()
+            .find(|wide| sharp(velocity, largest, i, *wide) && even(time, i, *wide));
+        let Some((wide, _)) = wide else { continue };
+        let places: Option<Vec<(usize, f64)>> = (i..i + wide).map(corner).collect();
+        // Where two corners would share an interval it is neither's.
+        if let Some(places) = places
+            && found.last().is_none_or(|(last, _)| *last < i)
         {
-            found.extend([first, second]);
+            far = far.min((velocity[i + wide] - velocity[i]).abs());
+            found.extend(places);
         }
     }
+    // A motion that changes as quickly elsewhere is sampled too coarsely, and has no corners.
+    if !found.is_empty() && far <= STANDS_OUT * usual_change(velocity) {
+        found.clear();
+    }
     found
+}
+
+/// Median of the changes between neighbours.
+pub(crate) fn usual_change(values: &[f64]) -> f64 {
+    let mut changes: Vec<f64> = values.windows(2).map(|v| (v[1] - v[0]).abs()).collect();
+    if changes.is_empty() {
+        return 0.0;
+    }
+    let middle = changes.len() / 2;
+    *changes.select_nth_unstable_by(middle, f64::total_cmp).1
+}
+
+/// True where the samples around are evenly spaced: across a gap much changes that is no corner.
+pub(crate) fn even(time: &[f64], i: usize, (wide, _): (usize, f64)) -> bool {
+    let near = i.saturating_sub(BESIDE)..(i + wide + BESIDE).min(time.len() - 1);
+    let step = time[i + 1] - time[i];
+    near.clone().all(|k| (time[k + 1] - time[k] - step).abs() < UNEVEN * step)
 }
 
 #[cfg(test)]

@@ -8,10 +8,7 @@ use super::corners::corners;
 use super::local::{NARROWEST, TERMS};
 use super::window::Window;
 use super::{Derived, END, PART_TERMS, joined};
-use crate::kernel::jumps::{ALONE, IN_TWO, sharp};
-
-/// A jump of the slope is so many times the median of its changes.
-const STANDS_OUT: f64 = 12.0;
+use crate::kernel::jumps::{ALONE, IN_TWO, STANDS_OUT, even, sharp, usual_change};
 
 /// Velocity and displacement of a part, and the half window.
 type Fit = (Vec<f64>, Vec<f64>, usize);
@@ -20,24 +17,23 @@ type Fit = (Vec<f64>, Vec<f64>, usize);
 fn breaks(time: &[f64], displacement: &[f64]) -> Vec<usize> {
     let pairs = time.windows(2).zip(displacement.windows(2));
     let slopes: Vec<f64> = pairs.map(|(t, x)| (x[1] - x[0]) / (t[1] - t[0])).collect();
-    let mut changes: Vec<f64> = slopes.windows(2).map(|s| (s[1] - s[0]).abs()).collect();
-    let middle = changes.len() / 2;
-    if changes.is_empty() {
-        return Vec::new();
-    }
-    let usual = *changes.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let usual = usual_change(&slopes);
     let largest = slopes.iter().fold(0.0_f64, |largest, v| largest.max(v.abs()));
-    let stands_out = |i: usize, wide: usize| (slopes[i + wide] - slopes[i]).abs() > STANDS_OUT * usual;
+    let stands_out = |i: usize, wide: (usize, f64)| {
+        let jump = || (slopes[i + wide.0] - slopes[i]).abs();
+        sharp(&slopes, largest, i, wide) && jump() > STANDS_OUT * usual && even(time, i, wide)
+    };
     let mut found: Vec<usize> = Vec::new();
     for i in 0..slopes.len() {
-        if sharp(&slopes, largest, i, ALONE) && stands_out(i, 1) {
+        if stands_out(i, ALONE) {
             // Beside a sample, in the interval whose slope has a little of both.
             let mixed = |a: usize, b: usize| (slopes[a] - slopes[b]).abs();
             found.push(if mixed(i - 1, i) > mixed(i + 1, i + 2) { i } else { i + 1 });
-        } else if sharp(&slopes, largest, i, IN_TWO) && stands_out(i, 2) {
+        } else if stands_out(i, IN_TWO) {
             found.push(i + 1);
         }
     }
+    found.dedup();
     found
 }
 

@@ -91,7 +91,9 @@ pub fn together(time: &[f64], displacement: &[f64], velocity: &[f64]) -> (Vec<f6
     let of_the_motion = [vec![1.0; time.len()], displacement.to_vec(), velocity.to_vec(), rates];
     let wander = without(kept, of_the_motion);
     let size = |series: &[f64]| series.iter().map(|x| x * x).sum::<f64>();
-    if size(&wander) < WANDER.powi(2) * size(displacement) {
+    let mean = displacement.iter().sum::<f64>() / displacement.len() as f64;
+    let motion: Vec<f64> = displacement.iter().map(|x| x - mean).collect();
+    if size(&wander) < WANDER.powi(2) * size(&motion) {
         return (x, velocity.to_vec());
     }
     // A line has the calmest slope, also at the ends.
