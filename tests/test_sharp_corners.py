@@ -2,7 +2,8 @@
 
 import numpy as np
 import pytest
-from mre_core import Recording, diagnose
+from mre_core import Level, Model, Recording, diagnose, simulate
+from reference import models
 from scipy.signal import lfilter  # type: ignore[import-untyped]
 
 FINER = 40
@@ -36,6 +37,28 @@ def hysteretic(x: Array) -> Array:
         half = w[i] + 0.5 * rate(w[i])
         w[i + 1] = w[i] + rate(half)
     return w[::FINER]
+
+
+@pytest.mark.parametrize("turn", [0.002, 0.005, 0.01])
+def test_rounded_corners_are_where_the_plain_reference_has_them(turn: float) -> None:
+    """Turns within an interval, or two."""
+    step = 0.01 / 50
+    fine = np.arange(400 * 50) * step
+    v = np.where((fine % 0.6037) / 0.6037 < 0.5, 30.0, -30.0)
+    width = round(turn / step)
+    v = np.convolve(np.pad(v, width, mode="edge"), np.ones(width) / width, "same")[width:-width]
+    x = np.cumsum(v) * step
+    motion = Recording(fine[::50], x[::50], np.zeros(400), velocity=v[::50])
+    shape = {"rho": 0.5, "sigma": 0.7, "n": 1.3}
+    model = Model("bouc_wen", (Level(None, {"c0": 0.0, "kx": 0.0, "kw": 1.0, **shape, "F0": 0.0}),))
+    plain = models.Motion(motion.time, motion.displacement, motion.velocity)
+    assert len(models.jumps(plain)) > 12
+
+    def slope(v: float, w: float) -> float:
+        return float(0.5 * (v - abs(w) ** 1.3 * (0.7 * (abs(v) * np.sign(w) - v) + v)))
+
+    wanted = models.runge_kutta(slope, models.substeps(0.5, 0.7, 1.3, plain), plain)
+    assert np.abs(simulate(model, motion) - wanted).max() < 1e-12
 
 
 @pytest.mark.parametrize("recorded", [True, False])
