@@ -2,7 +2,7 @@
 //!
 //! | symbol | meaning | unit | range |
 //! |---|---|---|---|
-//! | g | half the free play | mm | 0 to half the largest stroke |
+//! | g | half the free play | mm | 0.04 % to half of the largest stroke |
 //! | c | its middle | mm | half the largest stroke to either side |
 //!
 //! Reference: Nordin and Gutman, Automatica 38 (2002) 1633.
