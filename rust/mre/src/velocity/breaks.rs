@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::corners::corners;
 use super::local::{NARROWEST, TERMS};
 use super::window::Window;
-use super::{Derived, END, PART_TERMS, joined};
+use super::{Derived, END, PART_TERMS, cut, joined};
 use crate::kernel::jumps::{ALONE, IN_TWO, STANDS_OUT, even, sharp, usual_change};
 
 /// Velocity and displacement of a part, and the half window.
@@ -43,9 +43,7 @@ pub(super) fn between_breaks(time: &[f64], displacement: &[f64]) -> Option<Deriv
     if breaks.is_empty() {
         return None;
     }
-    let starts = std::iter::once(0).chain(breaks.iter().map(|i| i + 1));
-    let ends = breaks.iter().map(|i| i + 1).chain(std::iter::once(time.len()));
-    let parts: Vec<Range<usize>> = starts.zip(ends).map(|(start, end)| start..end).collect();
+    let parts: Vec<Range<usize>> = cut(&breaks, time.len()).collect();
     let fits: Option<Vec<Fit>> = parts
         .par_iter()
         .map(|part| {

@@ -93,6 +93,13 @@ fn step(time: &[f64]) -> f64 {
     (time[time.len() - 1] - time[0]) / (time.len() - 1) as f64
 }
 
+/// So many samples in parts, cut after some of them.
+fn cut(after: &[usize], samples: usize) -> impl Iterator<Item = Range<usize>> {
+    let starts = std::iter::once(0).chain(after.iter().map(|i| i + 1));
+    let ends = after.iter().map(|i| i + 1).chain(std::iter::once(samples));
+    starts.zip(ends).map(|(start, end)| start..end)
+}
+
 /// Velocity in mm/s at every sample of a displacement in mm at strictly increasing times in s.
 ///
 /// # Panics

@@ -1,13 +1,12 @@
 //! A motion whose velocity was recorded, without the noise of the two.
 
-use std::ops::Range;
-
 use super::local::{NARROWEST, TERMS};
 use super::window::Window;
-use super::{Calming, Derived, PART_TERMS};
+use super::{Calming, Derived, PART_TERMS, cut};
 use crate::kernel::filter::dot;
 use crate::kernel::intervals::Plan;
 use crate::kernel::jumps::jumps;
+use crate::recording::mean;
 
 /// Widest half window in samples of what a displacement has beside its velocity.
 const WIDEST: usize = 200;
@@ -43,7 +42,8 @@ pub fn smoothed(time: &[f64], displacement: &[f64], velocity: &[f64]) -> Smoothe
     let corners = jumps(time, displacement, velocity);
     let terms: &[usize] = if corners.is_empty() { &[TERMS] } else { &PART_TERMS };
     let (mut found, mut noise, mut left) = (velocity.to_vec(), 0.0, 0.0);
-    for part in between(&corners, velocity.len()).filter(|part| part.len() > 2 * NARROWEST) {
+    let lasts: Vec<usize> = corners.iter().map(|(i, _)| *i).collect();
+    for part in cut(&lasts, velocity.len()).filter(|part| part.len() > 2 * NARROWEST) {
         let (time, v) = (&time[part.clone()], &velocity[part.clone()]);
         let window = Window::best(time, v, WIDEST, terms);
         let (slope, smooth) = window.over(time, v);
@@ -56,11 +56,11 @@ pub fn smoothed(time: &[f64], displacement: &[f64], velocity: &[f64]) -> Smoothe
     }
     let mut taken: Vec<f64> = found.iter().zip(velocity).map(|(a, b)| (a - b).powi(2)).collect();
     let count = taken.len() as f64;
-    let mean = taken.iter().sum::<f64>() / count;
+    let average = mean(&taken);
     let middle = taken.len() / 2;
     let (_, median, _) = taken.select_nth_unstable_by(middle, f64::total_cmp);
     let jumps = !corners.is_empty();
-    if apart(&found, velocity) && *median > EVERYWHERE * mean {
+    if apart(&found, velocity) && *median > EVERYWHERE * average {
         let [noise, left] = [noise, left].map(|squares| (squares / count).sqrt());
         Smoothed { velocity: found, noise, left, jumps }
     } else {
@@ -91,8 +91,8 @@ pub fn together(time: &[f64], displacement: &[f64], velocity: &[f64]) -> (Vec<f6
     let of_the_motion = [vec![1.0; time.len()], displacement.to_vec(), velocity.to_vec(), rates];
     let wander = without(kept, of_the_motion);
     let size = |series: &[f64]| series.iter().map(|x| x * x).sum::<f64>();
-    let mean = displacement.iter().sum::<f64>() / displacement.len() as f64;
-    let motion: Vec<f64> = displacement.iter().map(|x| x - mean).collect();
+    let middle = mean(displacement);
+    let motion: Vec<f64> = displacement.iter().map(|x| x - middle).collect();
     if size(&wander) < WANDER.powi(2) * size(&motion) {
         return (x, velocity.to_vec());
     }
@@ -127,13 +127,6 @@ fn without<const N: usize>(mut series: Vec<f64>, mut columns: [Vec<f64>; N]) -> 
         less(&mut series, &before[k]);
     }
     series
-}
-
-/// Samples between jumps.
-fn between(jumps: &[(usize, f64)], samples: usize) -> impl Iterator<Item = Range<usize>> {
-    let starts = std::iter::once(0).chain(jumps.iter().map(|(i, _)| i + 1));
-    let ends = jumps.iter().map(|(i, _)| i + 1).chain(std::iter::once(samples));
-    starts.zip(ends).map(|(start, end)| start..end)
 }
 
 /// True where what was taken off a series is noise worth the change.
