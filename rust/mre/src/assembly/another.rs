@@ -118,6 +118,7 @@ impl Assembly<'_> {
         let nothing = campaign.recordings().last().map_or(Vec::new(), |last| vec![0.0; last.len()]);
         let with = |known: &[Vec<f64>]| Arc::new(known.iter().cloned().chain([nothing.clone()]).collect());
         let wider = Assembly::new(campaign, base, self.effects.clone(), with(&self.reference));
-        Assembly { whole: with(&self.whole), ..wider }
+        let fading = self.fading.iter().cloned().chain([Vec::new()]).collect();
+        Assembly { whole: with(&self.whole), fading: Arc::new(fading), ..wider }
     }
 }

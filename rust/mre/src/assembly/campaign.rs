@@ -87,11 +87,11 @@ impl Campaign {
         &self.doubts
     }
 
-    /// The same with the noise of the motions whose velocity is derived drawn anew and added once more, some times; none
+    /// The same with the noise of the motions drawn anew and added once more, some times; none
     /// where there is no such noise.
     pub(crate) fn shaken(&self) -> &[Self] {
         self.shaken.get_or_init(|| {
-            if self.doubts.iter().all(|doubts| doubts.calming.is_none()) {
+            if self.doubts.iter().all(|doubts| doubts.left.is_none()) {
                 return Vec::new();
             }
             (0..SHAKEN).map(|draw| self.shaken_once(draw)).collect()
@@ -149,6 +149,7 @@ impl Campaign {
             current: self.currents[r].as_deref(),
             force,
             whole,
+            fading: &[],
             before: self.before[r],
             past: recording.past().unwrap_or_default(),
             sizes: &self.sizes,

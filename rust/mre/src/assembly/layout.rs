@@ -20,6 +20,8 @@ pub struct Assembly<'a> {
     pub(super) reference: Arc<Vec<Vec<f64>>>,
     /// Force of the device with all its effects, by recording.
     pub(super) whole: Arc<Vec<Vec<f64>>>,
+    /// What may be left of unknown hysteretic variables of the base, by recording; none are known at first.
+    pub(super) fading: Arc<Vec<Vec<Vec<f64>>>>,
     pub(super) boxes: Vec<Parameter>,
     pub(super) known: Option<Arc<Known>>,
 }
@@ -40,15 +42,16 @@ impl<'a> Assembly<'a> {
             .chain(effects.iter().flat_map(|e| e.shape(campaign.sizes())))
             .collect();
         let whole = reference.clone();
-        Self { campaign, base, effects, reference, whole, boxes, known: None }
+        let fading = Arc::new(vec![Vec::new(); campaign.recordings().len()]);
+        Self { campaign, base, effects, reference, whole, fading, boxes, known: None }
     }
 
     /// The same base with other effects.
     #[must_use]
     pub fn with(&self, effects: Vec<&'static dyn Effect>) -> Self {
         let known = self.known.clone();
-        let whole = self.whole.clone();
-        Self { whole, known, ..Self::new(self.campaign, self.base, effects, self.reference.clone()) }
+        let (whole, fading) = (self.whole.clone(), self.fading.clone());
+        Self { whole, fading, known, ..Self::new(self.campaign, self.base, effects, self.reference.clone()) }
     }
 
     /// The same, with what belongs to these shapes at hand.
@@ -111,7 +114,7 @@ impl<'a> Assembly<'a> {
 
     /// What effects see of a recording.
     pub fn scene(&self, r: usize) -> Scene<'_> {
-        self.campaign.scene(r, &self.reference[r], &self.whole[r])
+        Scene { fading: &self.fading[r], ..self.campaign.scene(r, &self.reference[r], &self.whole[r]) }
     }
 
     /// The campaign.

@@ -7,6 +7,7 @@ mod base_columns;
 mod campaign;
 mod columns;
 mod effect_columns;
+mod fading;
 mod halves;
 mod in_series;
 mod kept;

@@ -5,16 +5,13 @@ use std::sync::Arc;
 
 use rand_chacha::ChaCha8Rng;
 
-use crate::deviate::normal;
 use crate::recording::Recording;
-use crate::velocity::{self, Calm, Calming, Derived, Smoothed};
+use crate::velocity::{self, Calm, Calming, Derived, Left, Smoothed, Together};
 
-/// Noise of a derived velocity is known, and what it does to a fit is taken off: it may be so many times that of a recorded one.
-const KNOWN: f64 = 2.0;
-/// It differs from the recorded one by as much as that has noise, up to this factor.
+/// A derived velocity differs from the recorded one by as much as that has noise, up to this factor.
 const ALIKE: f64 = 1.2;
 
-/// In what a motion whose velocity is derived is not to be trusted.
+/// In what a motion is not to be trusted.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Doubts {
     /// Samples near a corner or an end, in rising order: the velocity is wrong or noisy there, and no fit counts them.
@@ -24,8 +21,8 @@ pub(crate) struct Doubts {
     pub(crate) noisy: Vec<[Vec<f64>; 2]>,
     /// True where the motion has corners: its velocity errs more near them than elsewhere, beyond what is left out.
     pub(crate) cornered: bool,
-    /// How noise was taken off the motion, of which some is left; `None` where nothing is known of it.
-    pub(crate) calming: Option<Calming>,
+    /// How noise was taken off the motion, of which some is left; `None` where there was none.
+    pub(crate) left: Option<Left>,
 }
 
 /// Displacement, mm, velocity, mm/s, and in what they are not to be trusted.
@@ -40,21 +37,28 @@ pub(super) fn of_one_motion(recording: &Recording) -> (Arc<Recording>, Doubts) {
     let (displacement, velocity, doubts) = if recording.velocity_window().is_some() {
         let derived = velocity::from_displacement(time, x);
         if derived.corners.is_empty() {
-            let calming = Calming::of(time, x, &derived);
-            without_corners(time, x, &derived, calming)
+            without_corners(time, x, &derived, derived.calming(time, x))
         } else {
             // Across a corner a longer window takes off motion.
-            let velocity::Derived { displacement, velocity, corners, .. } = derived;
-            (displacement, velocity, Doubts { left_out: corners, cornered: true, ..Doubts::default() })
+            let left = some(Left::between_corners(x, &derived));
+            let Derived { displacement, velocity, corners, .. } = derived;
+            (displacement, velocity, Doubts { left_out: corners, cornered: true, left, ..Doubts::default() })
         }
     } else {
         let recorded = velocity::smoothed(time, x, v);
         better_derived([time, x, v], &recorded).unwrap_or_else(|| {
-            let (displacement, velocity) = velocity::together(time, x, &recorded.velocity);
-            (displacement, velocity, Doubts::default())
+            let together = Together::of(time, x, &recorded.velocity);
+            let [displacement, velocity] = together.over(time, x, &recorded.velocity);
+            let left = some(Left::recorded(recorded, together));
+            (displacement, velocity, Doubts { left, ..Doubts::default() })
         })
     };
     (Arc::new(recording.seen_with(displacement, velocity, None)), doubts)
+}
+
+/// Noise, if there is any.
+fn some(left: Left) -> Option<Left> {
+    (!left.is_none()).then_some(left)
 }
 
 /// A motion whose velocity is derived and has no corners.
@@ -62,10 +66,10 @@ fn without_corners(time: &[f64], x: &[f64], derived: &Derived, calming: Calming)
     let Calm { displacement, velocity, noisy } = calming.over(time, x);
     let ends = ends(time.len(), derived.half);
     let left_out = velocity::joined(ends.into_iter().chain(derived.unresolved(time, x)).collect());
-    (displacement, velocity, Doubts { left_out, noisy, cornered: false, calming: Some(calming) })
+    (displacement, velocity, Doubts { left_out, noisy, cornered: false, left: some(Left::Derived(calming)) })
 }
 
-/// A motion whose velocity has not much more noise than the recorded one where it is derived from the displacement.
+/// A motion whose velocity has less noise than the recorded one where it is derived from the displacement.
 fn better_derived([time, x, v]: [&[f64]; 3], recorded: &Smoothed) -> Option<Motion> {
     if recorded.noise <= 0.0 || recorded.jumps {
         return None;
@@ -74,11 +78,11 @@ fn better_derived([time, x, v]: [&[f64]; 3], recorded: &Smoothed) -> Option<Moti
     if !derived.corners.is_empty() {
         return None;
     }
-    let calming = Calming::of(time, x, &derived);
+    let calming = derived.calming(time, x);
     // Otherwise the window, or the displacement, misses some of the motion.
     let squares: f64 = derived.velocity.iter().zip(v).map(|(a, b)| (a - b).powi(2)).sum();
     let alike = squares < (ALIKE * recorded.noise).powi(2) * time.len() as f64;
-    let calmer = derived.noise(time, calming.noise) < KNOWN * recorded.left;
+    let calmer = derived.noise(time, calming.noise) < recorded.left;
     (alike && calmer).then(|| without_corners(time, x, &derived, calming))
 }
 
@@ -88,9 +92,8 @@ pub(super) fn shaken(
     doubts: &Doubts,
     stream: &mut ChaCha8Rng,
 ) -> Option<(Arc<Recording>, Doubts)> {
-    let calming = doubts.calming.as_ref().filter(|calming| calming.noise > 0.0)?;
-    let noise: Vec<f64> = recording.time().iter().map(|_| calming.noise * normal(stream)).collect();
-    let left = calming.over(recording.time(), &noise);
+    let motion = [recording.time(), recording.displacement(), recording.velocity()];
+    let left = doubts.left.as_ref()?.drawn(motion, stream);
     let more = |own: &[f64], left: &[f64]| own.iter().zip(left).map(|(own, left)| own + left).collect();
     let displacement = more(recording.displacement(), &left.displacement);
     let velocity = more(recording.velocity(), &left.velocity);

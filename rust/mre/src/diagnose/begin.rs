@@ -9,7 +9,7 @@ use super::monitor::Monitor;
 use super::noise::Noise;
 use super::normal::Rows;
 use crate::assembly::{Assembly, Base, Campaign};
-use crate::effect::{Effect, InitialState, Quantisation, starts_in_motion};
+use crate::effect::{Effect, InitialHysteresis, InitialState, Quantisation, starts_in_motion};
 
 /// Steps of the first descents.
 const FEW: usize = 8;
@@ -42,8 +42,13 @@ pub(super) fn begin<'a>(
     let count = campaign.recordings().len();
     let nothing = campaign.recordings().iter().map(|r| vec![0.0; r.len()]).collect();
     let mut effects: Vec<&'static dyn Effect> = given.iter().map(|(effect, _)| *effect).collect();
-    if campaign.recordings().iter().any(|r| starts_in_motion(r)) {
+    let in_motion = campaign.recordings().iter().any(|r| starts_in_motion(r));
+    let state = in_motion && base.is_hysteretic();
+    if in_motion {
         effects.push(&InitialState);
+    }
+    if state {
+        effects.push(&InitialHysteresis);
     }
     if campaign.sizes().quantum.is_some() {
         effects.push(&Quantisation);
@@ -61,9 +66,13 @@ pub(super) fn begin<'a>(
     let coarse = refine(&assembly, data, &first);
     let noise = noise_left(&assembly, data, &coarse);
     let data = Data { noise: &noise, rows, monitor };
-    let fitted = refine(&assembly, data, &coarse.unit);
-    let force = assembly.base_force(&fitted.unit, &fitted.coefficients);
-    let Candidate { assembly, fitted } = fit(assembly.referring_to(force), data, &fitted.unit);
+    let mut fitted = refine(&assembly, data, &coarse.unit);
+    let mut assembly = assembly;
+    for _ in 0..if state { 2 } else { 1 } {
+        let force = assembly.base_force(&fitted.unit, &fitted.coefficients);
+        let referring = assembly.referring_to(force).fading(&assembly.physical(&fitted.unit));
+        Candidate { assembly, fitted } = fit(referring, data, &fitted.unit);
+    }
     let noise = noise_left(&assembly, data, &fitted);
     Begun { assembly, fitted, noise }
 }

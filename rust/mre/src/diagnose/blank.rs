@@ -97,7 +97,7 @@ fn forces(found: &Diagnosis) -> Vec<Vec<f64>> {
     let recordings = assembly.campaign().recordings().len();
     let mut kept = vec![true; assembly.base_coefficients()];
     for (place, effect) in assembly.effects().iter().enumerate() {
-        let simulated = !effect.of_the_measurement() || effect.about() == InitialState.about();
+        let simulated = !effect.of_the_measurement() || effect.about().effect == InitialState.about().effect;
         kept.extend(vec![simulated; assembly.of_effect(place).0.len()]);
     }
     let fitted = &found.base.fitted;

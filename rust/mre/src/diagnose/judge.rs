@@ -143,7 +143,8 @@ pub(super) fn settle_reference(named: &mut Named, rows: &[Rows], monitor: &dyn M
     for _ in 0..3 {
         let data = Data { noise: &named.noise, rows, monitor };
         let force = named.assembly.base_force(&named.fitted.unit, &named.fitted.coefficients);
-        named.assembly = named.assembly.referring_to(force);
+        let shapes = named.assembly.physical(&named.fitted.unit);
+        named.assembly = named.assembly.referring_to(force).fading(&shapes);
         let Candidate { assembly, fitted } = fit(named.assembly.clone(), data, &named.fitted.unit);
         (named.assembly, named.fitted) = (assembly, fitted);
     }

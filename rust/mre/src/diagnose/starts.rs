@@ -4,7 +4,7 @@ use super::candidates::residual;
 use super::drift::{line, without};
 use super::explained::unexplained;
 use crate::assembly::Assembly;
-use crate::effect::{Effect, InitialState, starts_in_motion};
+use crate::effect::{Effect, InitialState, Scene, starts_in_motion};
 use crate::kernel::filter::dot;
 
 /// Forces in N of a model, with what an unknown initial state explains of what they leave.
@@ -52,6 +52,6 @@ pub(super) fn calm(assembly: &Assembly, residuals: &[Vec<f64>]) -> Vec<Option<Ve
 fn decays(assembly: &Assembly, r: usize) -> Option<Vec<Vec<f64>>> {
     let recording = &assembly.campaign().recordings()[r];
     let scored = |column: Vec<f64>| column[recording.scored()].to_vec();
-    starts_in_motion(recording)
-        .then(|| InitialState.columns(&assembly.scene(r), &[]).into_iter().map(scored).collect())
+    let all = |scene: Scene| InitialState.columns(&scene, &[]).into_iter().chain(scene.fading.to_vec());
+    starts_in_motion(recording).then(|| all(assembly.scene(r)).map(scored).collect())
 }

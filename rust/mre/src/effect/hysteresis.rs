@@ -62,6 +62,7 @@ pub(super) fn bouc_wen(scene: &Scene, shape: &[f64]) -> Vec<f64> {
     hysteretic::trace(
         [scene.time, scene.displacement, scene.velocity],
         [shape[0], shape[1], shape[2]],
+        0.0,
         &mut w,
     );
     // Samples too far apart for these parameters show nothing of it.

@@ -22,6 +22,8 @@ pub struct Scene<'a> {
     pub force: &'a [f64],
     /// Force of the device with all its effects, N, as far as it is known: that of the base at first.
     pub whole: &'a [f64],
+    /// What may be left of an unknown hysteretic variable of the base at the first sample: none where it starts at rest.
+    pub fading: &'a [Vec<f64>],
     /// Time of all recordings before this one in the campaign, s.
     pub before: f64,
     /// What the specimen has been through before.

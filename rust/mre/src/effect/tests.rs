@@ -57,6 +57,7 @@ impl Stage {
             current: self.current.as_deref(),
             force: &self.force,
             whole: &self.force,
+            fading: &[],
             before: 0.0,
             past: Past::default(),
             sizes: &self.sizes,

@@ -101,9 +101,9 @@ pub(super) fn rk4<const FUSED: bool, P: Power, const N: usize>(
     next
 }
 
-/// The hysteretic variable at every sample, from rest; infinite throughout where the samples are too
+/// The hysteretic variable at every sample, from a value at the first; infinite throughout where the samples are too
 /// far apart for these parameters.
-pub(crate) fn trace([time, x, velocity]: [&[f64]; 3], shape: [f64; 3], out: &mut [f64]) {
+pub(crate) fn trace([time, x, velocity]: [&[f64]; 3], shape: [f64; 3], start: f64, out: &mut [f64]) {
     let plan = Plan::of(time, x, velocity);
     let stiffness = stiffness(shape);
     if plan.too_coarse(stiffness) {
@@ -111,7 +111,7 @@ pub(crate) fn trace([time, x, velocity]: [&[f64]; 3], shape: [f64; 3], out: &mut
         return;
     }
     let shapes = Shapes { rho: [shape[0]], sigma: [shape[1]], n: [shape[2]] };
-    let mut w = [0.0];
+    let mut w = [start];
     out[0] = w[0];
     for i in 0..plan.len() {
         for interval in plan.after(i) {

@@ -22,9 +22,11 @@ pub(crate) struct Motion<'a> {
     pub(crate) velocity: &'a [f64],
     /// Shapes.
     pub(crate) shape: [f64; 3],
+    /// The hysteretic variable at the first sample.
+    pub(crate) start: f64,
 }
 
-/// The hysteretic variable at every sample, from rest; infinite throughout where the samples are too far
+/// The hysteretic variable at every sample; infinite throughout where the samples are too far
 /// apart for the shapes. A trace does not depend on the others.
 pub(crate) fn traces(of: &[Motion]) -> Vec<Vec<f64>> {
     traces_on(dispatch::best(), of)
@@ -55,6 +57,7 @@ fn traces_on(isa: Isa, of: &[Motion]) -> Vec<Vec<f64>> {
 /// One trace to be made.
 struct Lane {
     shape: [f64; 3],
+    start: f64,
     plan: Plan,
     stiffness: f64,
     hopeless: bool,
@@ -65,7 +68,7 @@ impl Lane {
         let plan = Plan::of(motion.time, motion.displacement, motion.velocity);
         let stiffness = stiffness(motion.shape);
         let hopeless = plan.too_coarse(stiffness);
-        Self { shape: motion.shape, plan, stiffness, hopeless }
+        Self { shape: motion.shape, start: motion.start, plan, stiffness, hopeless }
     }
 
     /// Intervals from a sample to the next; none where all is done.
@@ -93,8 +96,8 @@ fn simulate<const FUSED: bool, const N: usize>(lanes: &[Lane]) -> Vec<Vec<f64>> 
     let part = |k: usize| std::array::from_fn(|l| lanes.get(l).map_or(1.0, |lane| lane.shape[k]));
     let shapes = Shapes::<N> { rho: part(0), sigma: part(1), n: part(2) };
     let longest = lanes.iter().map(|lane| lane.plan.len()).max().unwrap_or(0);
-    let mut out: Vec<Vec<f64>> = lanes.iter().map(|lane| vec![0.0; lane.plan.len() + 1]).collect();
-    let mut w = [0.0; N];
+    let mut out: Vec<Vec<f64>> = lanes.iter().map(|lane| vec![lane.start; lane.plan.len() + 1]).collect();
+    let mut w: [f64; N] = std::array::from_fn(|l| lanes.get(l).map_or(0.0, |lane| lane.start));
     for i in 0..longest {
         for k in 0..lanes.iter().map(|lane| lane.after(i).len()).max().unwrap_or(0) {
             // One that is done, or has nothing after its turn, stays where it is.
@@ -170,6 +173,7 @@ mod tests {
                 displacement,
                 velocity,
                 shape: *shape,
+                start: 0.5 - shape[1],
             })
             .collect();
         for isa in dispatch::available() {
@@ -177,7 +181,7 @@ mod tests {
             for (job, found) in jobs.iter().zip(&together) {
                 assert_eq!(traces_on(isa, &[*job])[0], *found, "{isa:?} {:?}", job.shape);
                 let mut alone = vec![0.0; job.time.len()];
-                trace([job.time, job.displacement, job.velocity], job.shape, &mut alone);
+                trace([job.time, job.displacement, job.velocity], job.shape, job.start, &mut alone);
                 let alike = alone.iter().zip(found).all(|(a, b)| a == b || (a - b).abs() < 1e-12);
                 assert!(alike, "{isa:?} {:?}", job.shape);
             }

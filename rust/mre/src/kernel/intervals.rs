@@ -156,6 +156,16 @@ fn largest(intervals: &[Interval]) -> f64 {
     intervals.iter().map(|interval| interval.demand).fold(0.0, f64::max)
 }
 
+/// Way of a velocity without corners from the first sample to every one, mm.
+pub(crate) fn way(time: &[f64], velocity: &[f64]) -> Vec<f64> {
+    let spans = time.windows(2).zip(velocity.windows(2)).zip(middles(time, velocity, &[]));
+    let ways = spans.scan(0.0, |way, ((t, v), middle)| {
+        *way += (t[1] - t[0]) * (v[0] + 4.0 * middle + v[1]) / 6.0;
+        Some(*way)
+    });
+    std::iter::once(0.0).chain(ways).collect()
+}
+
 /// Velocity halfway between samples: the mean of the parabolas through the sample before and the one after, which at
 /// even times is the cubic through all four; one parabola at the ends and beside jumps. Where it jumps between two samples,
 /// the velocity there.

@@ -174,7 +174,7 @@ mod tests {
         let [time, x, v] = motion(400.0);
         for shape in [[0.3, 0.8, 1.7], [0.5, 0.5, 1.0], [0.2, 1.4, 2.0]] {
             let mut plain = vec![0.0; x.len()];
-            hysteretic::trace([&time, &x, &v], shape, &mut plain);
+            hysteretic::trace([&time, &x, &v], shape, 0.0, &mut plain);
             let off = largest_difference(
                 &plain,
                 &trace([&time, &x, &v], &Condition::Missing, shape, StateChange::default()),

@@ -76,7 +76,7 @@ impl Term for BoucWen {
             out.copy_from_slice(&trace);
         } else {
             let shape = [shape[0], shape[1], shape[2]];
-            hysteretic::trace(motion(recording), shape, out);
+            hysteretic::trace(motion(recording), shape, recording.start(), out);
         }
     }
 
@@ -91,6 +91,7 @@ impl Term for BoucWen {
                 displacement: recording.displacement(),
                 velocity: recording.velocity(),
                 shape: [shape[0], shape[1], shape[2]],
+                start: recording.start(),
             })
             .collect();
         let mut plain = traces(&motions).into_iter();

@@ -58,6 +58,7 @@ pub struct Recording {
     velocity_window: Option<f64>,
     scored: Range<usize>,
     state_change: Option<StateChange>,
+    start: f64,
     past: Option<Past>,
 }
 
@@ -82,7 +83,7 @@ impl Recording {
             (derived.velocity, Some(window))
         };
         let scored = 0..velocity.len();
-        Ok(Self { series, velocity, velocity_window, scored, state_change: None, past: None })
+        Ok(Self { series, velocity, velocity_window, scored, state_change: None, start: 0.0, past: None })
     }
 
     /// Number of samples.
@@ -240,6 +241,16 @@ impl Recording {
     pub(crate) fn with_state_changed(self, by: Option<StateChange>) -> Self {
         let state_change = self.state_change.into_iter().chain(by).reduce(StateChange::and);
         Self { state_change, ..self }
+    }
+
+    /// The same recording of a device whose normalised hysteretic variable is not zero at the first sample.
+    pub(crate) fn starting_at(self, start: f64) -> Self {
+        Self { start, ..self }
+    }
+
+    /// The normalised hysteretic variable at the first sample.
+    pub(crate) fn start(&self) -> f64 {
+        self.start
     }
 
     /// What is changed of the law of the hysteretic state of the device; `None`: nothing.

@@ -2,16 +2,12 @@
 
 use std::ops::Range;
 
-use rayon::prelude::*;
-
 use super::corners::corners;
-use super::local::{NARROWEST, TERMS};
+use super::local::NARROWEST;
+use super::smoothing::Smoothing;
 use super::window::Window;
 use super::{Derived, END, PART_TERMS, cut, joined};
 use crate::kernel::jumps::{ALONE, IN_TWO, STANDS_OUT, even, sharp, usual_change};
-
-/// Velocity and displacement of a part, and the half window.
-type Fit = (Vec<f64>, Vec<f64>, usize);
 
 /// The last samples before corners of a displacement in mm, in rising order. One within two samples of an end is not seen.
 fn breaks(time: &[f64], displacement: &[f64]) -> Vec<usize> {
@@ -43,38 +39,33 @@ pub(super) fn between_breaks(time: &[f64], displacement: &[f64]) -> Option<Deriv
     if breaks.is_empty() {
         return None;
     }
-    let parts: Vec<Range<usize>> = cut(&breaks, time.len()).collect();
-    let fits: Option<Vec<Fit>> = parts
-        .par_iter()
-        .map(|part| {
-            let (time, x) = (&time[part.clone()], &displacement[part.clone()]);
-            if part.len() < 3 {
-                let slope = if part.len() == 2 { (x[1] - x[0]) / (time[1] - time[0]) } else { 0.0 };
-                return Some((vec![slope; part.len()], x.to_vec(), 1));
-            }
-            let window = if part.len() > 2 * NARROWEST {
-                Window::best(time, x, usize::MAX, &PART_TERMS)
-            } else {
-                Window { half: (part.len() - 1) / 2, terms: 2 }
-            };
-            let (velocity, smooth) = window.over(time, x);
-            // A corner that is rounded, or lost in noise.
-            let whole = corners(x, &smooth, window.half).is_empty();
-            whole.then_some((velocity, smooth, window.half))
-        })
-        .collect();
-    let fits = fits?;
-    let half = fits.iter().map(|fit| fit.2).max().unwrap_or(TERMS);
-    let mut derived = Derived { velocity: Vec::new(), displacement: Vec::new(), half, corners: Vec::new() };
+    let window = |part: &Range<usize>| {
+        if part.len() > 2 * NARROWEST {
+            Window::best(&time[part.clone()], &displacement[part.clone()], usize::MAX, &PART_TERMS)
+        } else {
+            Window { half: (part.len() - 1) / 2, terms: 2 }
+        }
+    };
+    let parts = cut(&breaks, time.len()).map(|part| (part.clone(), window(&part)));
+    let mut smoothing = Smoothing(parts.collect());
+    let variance = smoothing.variance(displacement, &smoothing.over(time, displacement).1);
+    for (part, window) in smoothing.0.iter_mut().filter(|(part, _)| part.len() > 2 * NARROWEST) {
+        *window = Window::knowing(variance, &time[part.clone()], &displacement[part.clone()], &PART_TERMS);
+    }
+    let (velocity, smooth) = smoothing.over(time, displacement);
     let mut doubted = Vec::new();
-    for (part, (velocity, smooth, half)) in parts.iter().zip(fits) {
-        derived.velocity.extend(velocity);
-        derived.displacement.extend(smooth);
-        let noisy = half.div_ceil(END).min(part.len());
+    for (part, window) in &smoothing.0 {
+        let x = &displacement[part.clone()];
+        let own = Smoothing(vec![(0..part.len(), *window)]);
+        // A corner that is rounded, or lost in noise.
+        if !corners(x, own.variance(x, &smooth[part.clone()]), window.half).is_empty() {
+            return None;
+        }
+        let noisy = window.half.div_ceil(END).min(part.len());
         doubted.extend([part.start..part.start + noisy, part.end - noisy..part.end]);
     }
-    derived.corners = joined(doubted);
-    Some(derived)
+    let half = smoothing.0.iter().map(|(_, window)| window.half).max().unwrap_or(1);
+    Some(Derived { velocity, displacement: smooth, half, corners: joined(doubted), smoothing })
 }
 
 #[cfg(test)]

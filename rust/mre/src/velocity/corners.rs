@@ -2,9 +2,6 @@
 
 use std::ops::Range;
 
-use super::local::TERMS;
-use super::window::Window;
-
 /// Share of the squares around a corner that a broken line leaves at most. Of a sine it leaves 1.28 % at least, at
 /// any length of the window; of several tones it may leave less.
 const SHARE: f64 = 0.011;
@@ -15,16 +12,12 @@ const STRAIGHT: f64 = 1e-3;
 /// Half widths of the window over which a corner is looked at: a round one is told from a smooth motion over more,
 /// and a short motion has only less.
 const REACHES: [usize; 2] = [2, 3];
-/// Median of the square of a normal variable of variance one.
-const GAUSSIAN: f64 = 0.455;
 
 /// Samples within `half` samples of a corner, as ranges in rising order that do not touch.
 ///
-/// `displacement` in mm on an even grid, `smooth` what polynomials over windows of this half width make of it. At a
-/// corner two straight lines meet, which the window may round: it is looked at over more than the window, and only the
+/// `displacement` in mm on an even grid, with noise of this `variance` in mm². At a corner two straight lines meet, which the window may round: it is looked at over more than the window, and only the
 /// even part around it tells it from a smooth motion.
-pub(super) fn corners(displacement: &[f64], smooth: &[f64], half: usize) -> Vec<Range<usize>> {
-    let variance = variance(displacement, smooth, half);
+pub(super) fn corners(displacement: &[f64], variance: f64, half: usize) -> Vec<Range<usize>> {
     let last = displacement.len();
     let broken = |i: usize| REACHES.iter().any(|reach| broken(displacement, i, half, reach * half, variance));
     let middles: Vec<usize> = (half..last.saturating_sub(half)).filter(|i| broken(*i)).collect();
@@ -63,14 +56,6 @@ fn broken(displacement: &[f64], i: usize, half: usize, reach: usize, variance: f
     let outside = Line::through(&even[half..], |_| 1.0);
     // The mean of two samples has half their variance.
     outside.left <= 0.5 * NOISE * variance + (STRAIGHT * outside.rise).powi(2)
-}
-
-/// Variance of the noise in mm², from the middle of what smoothing takes off.
-pub(super) fn variance(displacement: &[f64], smooth: &[f64], half: usize) -> f64 {
-    let mut squares: Vec<f64> = displacement.iter().zip(smooth).map(|(x, s)| (x - s).powi(2)).collect();
-    let middle = squares.len() / 2;
-    let median = *squares.select_nth_unstable_by(middle, f64::total_cmp).1;
-    median / GAUSSIAN / (1.0 - Window { half, terms: TERMS }.leverage())
 }
 
 /// A straight line by least squares through values one sample apart.

@@ -11,22 +11,28 @@
 mod breaks;
 mod corners;
 mod differences;
+mod left;
 mod local;
 mod low_pass;
 mod octaves;
 mod recorded;
+mod smoothing;
 mod stencil;
+mod together;
 mod window;
 
 use std::ops::Range;
 
 use crate::recording::even_step;
 use breaks::between_breaks;
+use corners::corners;
 pub(crate) use corners::joined;
-use corners::{corners, variance};
+pub(crate) use left::Left;
 use local::{NARROWEST, TERMS};
 pub use octaves::{Calm, Calming};
-pub use recorded::{Smoothed, smoothed, together};
+pub(crate) use recorded::{Smoothed, smoothed};
+pub use smoothing::Smoothing;
+pub(crate) use together::Together;
 use window::Window;
 
 /// Terms of the polynomials that are tried between corners.
@@ -59,6 +65,8 @@ pub struct Derived {
     /// Samples that have a corner of the motion in their window, on an even grid: their velocity is not to be
     /// trusted.
     pub corners: Vec<Range<usize>>,
+    /// How both were derived.
+    pub smoothing: Smoothing,
 }
 
 impl Derived {
@@ -67,21 +75,27 @@ impl Derived {
         2.0 * self.half as f64 * step(time)
     }
 
+    /// How more noise is taken off it where it has no corners, derived from this displacement in mm.
+    pub fn calming(&self, time: &[f64], displacement: &[f64]) -> Calming {
+        Calming::of(time, displacement, [self.displacement.clone(), self.velocity.clone()], self.half)
+    }
+
     /// Standard deviation in mm/s of the noise of this velocity where that of the displacement has this one in mm, on an
     /// even grid.
     pub fn noise(&self, time: &[f64], displacement: f64) -> f64 {
         let window = Window { half: self.half, terms: TERMS };
-        let around = 4 * self.half + 1;
+        // No window at an end reaches the one sample.
+        let around = 4 * self.half + 3;
         let even: Vec<f64> = (0..around).map(|i| i as f64 * step(time)).collect();
         let mut one = vec![0.0; around];
-        one[2 * self.half] = displacement;
+        one[2 * self.half + 1] = displacement;
         window.over(&even, &one).0.iter().map(|v| v * v).sum::<f64>().sqrt()
     }
 
     /// Samples of a motion without corners, derived from this displacement in mm, where it turns within fewer samples than
     /// give a slope: about them polynomials and differences give another.
     pub fn unresolved(&self, time: &[f64], displacement: &[f64]) -> Vec<Range<usize>> {
-        let noise = variance(displacement, &self.displacement, self.half).sqrt();
+        let noise = self.smoothing.variance(displacement, &self.displacement).sqrt();
         let missed = differences::missed(time, displacement, &self.velocity, noise, TURNED);
         let around = |(i, _): (usize, f64)| i.saturating_sub(BESIDE)..(i + BESIDE + 1).min(time.len());
         joined(missed.into_iter().map(around).collect())
@@ -109,8 +123,10 @@ pub fn from_displacement(time: &[f64], displacement: &[f64]) -> Derived {
         return derived;
     }
     let window = Window::best(time, displacement, usize::MAX, &[TERMS]);
-    let (velocity, smooth) = window.over(time, displacement);
-    let mut derived = Derived { velocity, displacement: smooth, half: window.half, corners: Vec::new() };
+    let smoothing = Smoothing(vec![(0..time.len(), window)]);
+    let (velocity, smooth) = smoothing.over(time, displacement);
+    let corners = Vec::new();
+    let mut derived = Derived { velocity, displacement: smooth, half: window.half, corners, smoothing };
     if even_step(time).is_ok() {
         between_corners(&mut derived, time, displacement, window);
     }
@@ -120,14 +136,15 @@ pub fn from_displacement(time: &[f64], displacement: &[f64]) -> Derived {
 /// Between true corners the motion is smoother than with them: there it is smoothed part by part. Otherwise there
 /// are no corners.
 fn between_corners(derived: &mut Derived, time: &[f64], displacement: &[f64], whole: Window) {
-    let corners = corners(displacement, &derived.displacement, whole.half);
+    let variance = derived.smoothing.variance(displacement, &derived.displacement);
+    let corners = corners(displacement, variance, whole.half);
     let parts: Vec<(Range<usize>, Window)> = corners
         .windows(2)
         .map(|pair| pair[0].end..pair[1].start)
         .filter(|part| part.len() > 2 * NARROWEST)
         .map(|part| {
             let (time, x) = (&time[part.clone()], &displacement[part.clone()]);
-            (part, Window::best(time, x, usize::MAX, &PART_TERMS))
+            (part, Window::knowing(variance, time, x, &PART_TERMS))
         })
         .collect();
     let samples = |of: &dyn Fn(&Window) -> bool| -> usize {
@@ -136,13 +153,9 @@ fn between_corners(derived: &mut Derived, time: &[f64], displacement: &[f64], wh
     if corners.is_empty() || 2 * samples(&|own| own.calm() > CALMER * whole.calm()) < samples(&|_| true) {
         return;
     }
-    let noise = variance(displacement, &derived.displacement, whole.half).sqrt();
-    for (part, own) in parts {
-        let (velocity, smooth) = own.over(&time[part.clone()], &displacement[part.clone()]);
-        derived.velocity[part.clone()].copy_from_slice(&velocity);
-        derived.displacement[part].copy_from_slice(&smooth);
-    }
-    let doubted = differences::missed(time, displacement, &derived.velocity, noise, SWUNG);
+    derived.smoothing.0.extend(parts);
+    (derived.velocity, derived.displacement) = derived.smoothing.over(time, displacement);
+    let doubted = differences::missed(time, displacement, &derived.velocity, variance.sqrt(), SWUNG);
     // What has a memory needs all of the way, there too.
     for (i, difference) in &doubted {
         derived.velocity[*i] = *difference;

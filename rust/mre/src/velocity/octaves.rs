@@ -3,12 +3,16 @@
 //! A local polynomial passes frequencies far above those of the motion. What a window of twice the length takes off
 //! is such noise and a little of the motion: a low pass keeps of it what the motion asks for (with the smallest estimate
 //! of the error: Stein 1981, <https://doi.org/10.1214/aos/1176345632>). And where a motion is slower than elsewhere,
-//! octave by octave what the next window takes off is compared with what noise would leave there.
+//! octave by octave what the next window takes off is compared with what noise would leave there. Where it rests, no polynomial
+//! of many terms can be as calm as the mean: what is left beside that is compared in the same way.
+
+use rayon::prelude::*;
 
 use super::local::TERMS;
 use super::low_pass::LowPass;
+use super::step;
 use super::window::Window;
-use super::{Derived, step};
+use crate::recording::mean;
 
 /// Widest half window in samples.
 const WIDEST: usize = 1024;
@@ -16,6 +20,8 @@ const WIDEST: usize = 1024;
 const APART: f64 = 1.15;
 /// An octave with less than so many times the mean square that noise has is noise.
 const NOISE: f64 = 2.0;
+/// A motion rests where it is as calm as the mean over so many half windows.
+const RESTS: usize = 1;
 /// Octaves that may hold noise beside motion.
 const MIXED: usize = 2;
 
@@ -44,23 +50,34 @@ pub struct Calming {
     cut_off: Option<f64>,
     /// What is noise of each octave, as a share of it at every sample; none where no wider window fits.
     shares: Vec<Vec<f64>>,
+    /// The same of what is beside the mean; empty where none was looked for.
+    rest: Vec<f64>,
 }
 
 impl Calming {
-    /// Of a measured displacement in mm.
-    pub fn of(time: &[f64], measured: &[f64], derived: &Derived) -> Self {
-        let half = derived.half;
+    /// Of a measured displacement in mm, by what polynomials over a half window make of it.
+    pub fn of(time: &[f64], measured: &[f64], motion: [Vec<f64>; 2], half: usize) -> Self {
         let share = Window { half, terms: TERMS }.leverage();
-        let motion = [derived.displacement.clone(), derived.velocity.clone()];
         let narrow = Smooth { motion, half, share };
         let mut noisy = Noisy { time, measured, step: step(time), variance: 0.0 };
         noisy.variance = noisy.left_by(&narrow) / (1.0 - share).max(f64::MIN_POSITIVE);
         let noise = noisy.variance.sqrt();
         let Some(wide) = noisy.smooth(2 * half) else {
-            return Self { noise, half, cut_off: None, shares: Vec::new() };
+            return Self { noise, half, cut_off: None, shares: Vec::new(), rest: Vec::new() };
         };
         let (best, cut_off) = noisy.low_passed(&narrow, &wide);
-        Self { noise, half, cut_off, shares: noisy.shares_of_octaves(best, wide) }
+        let (shares, left) = noisy.shares_of_octaves(best, wide);
+        let octaves = Self { noise, half, cut_off, shares, rest: Vec::new() };
+        let calm = octaves.over(time, measured).displacement;
+        let squares = spread(&calm, RESTS * half).into_iter().zip(left);
+        let rest = squares.map(|(square, left)| noise_share(square, noisy.variance * left)).collect();
+        Self { rest, ..octaves }
+    }
+
+    /// A displacement in mm less its mean around each sample.
+    fn beside_the_mean(&self, time: &[f64], displacement: &[f64]) -> Vec<f64> {
+        let mean = Window { half: RESTS * self.half, terms: 1 }.over(time, displacement).1;
+        each(displacement, &mean, |x, mean| x - mean)
     }
 
     /// What it leaves of a displacement in mm.
@@ -90,6 +107,12 @@ impl Calming {
                 *taken = each(taken, noise, |taken, noise| taken + noise);
             }
             fast = slow;
+        }
+        let [displacement, velocity] = less(&calm, &taken);
+        if !self.rest.is_empty() {
+            let beside = [self.beside_the_mean(time, &displacement), velocity.clone()];
+            let noise = beside.map(|part| each(&part, &self.rest, |part, share| share * part));
+            taken = [0, 1].map(|k| each(&taken[k], &noise[k], |taken, noise| taken + noise));
         }
         let [displacement, velocity] = less(&calm, &taken);
         let noisy = if self.shares.is_empty() { Vec::new() } else { [vec![taken], mixed].concat() };
@@ -173,22 +196,41 @@ impl Noisy<'_> {
         best
     }
 
-    /// Octave by octave from a motion and the next slower one on: what share of it is noise, sample by sample.
-    fn shares_of_octaves(&self, fastest: Smooth, next: Smooth) -> Vec<Vec<f64>> {
+    /// Octave by octave from a motion and the next slower one on: what share of it is noise, sample by sample; and what
+    /// share of the variance of the noise is left then.
+    fn shares_of_octaves(&self, fastest: Smooth, next: Smooth) -> (Vec<Vec<f64>>, Vec<f64>) {
         let mut shares = Vec::new();
+        let mut left = vec![fastest.share; self.time.len()];
         let (mut fast, mut slower) = (fastest, Some(next));
         while let Some(slow) = slower {
             // The kernel of a least squares fit is a polynomial, which a narrower fit keeps.
-            let noise = self.variance * (fast.share - slow.share).max(0.0);
+            let less = (fast.share - slow.share).max(0.0);
             let octave = each(&fast.motion[0], &slow.motion[0], |fast, slow| fast - slow);
-            let share =
-                |square: f64| if square > NOISE * noise { (NOISE * noise / square).powi(2) } else { 1.0 };
-            shares.push(around(&octave, 2 * slow.half).into_iter().map(share).collect());
+            let squares = around(&octave, 2 * slow.half);
+            let own: Vec<f64> =
+                squares.into_iter().map(|square| noise_share(square, self.variance * less)).collect();
+            left = each(&left, &own, |left, own| left - own * less);
+            shares.push(own);
             slower = self.smooth(2 * slow.half);
             fast = slow;
         }
-        shares
+        (shares, left)
     }
+}
+
+/// What share of something is noise that has this mean square where noise alone has that.
+fn noise_share(square: f64, noise: f64) -> f64 {
+    if square > NOISE * noise { (NOISE * noise / square).powi(2) } else { 1.0 }
+}
+
+/// Mean square about the mean over so many samples on either side.
+fn spread(series: &[f64], reach: usize) -> Vec<f64> {
+    let of = |i: usize| {
+        let own = &series[i.saturating_sub(reach)..(i + reach + 1).min(series.len())];
+        let middle = mean(own);
+        own.iter().map(|x| (x - middle).powi(2)).sum::<f64>() / own.len() as f64
+    };
+    (0..series.len()).into_par_iter().map(of).collect()
 }
 
 /// Mean square over so many samples on either side.
@@ -226,7 +268,7 @@ mod tests {
         let measured: Vec<f64> =
             time.iter().map(|t| motion(*t)[0] + size * 12.0_f64.sqrt() * uniform()).collect();
         let derived = from_displacement(&time, &measured);
-        let calm = Calming::of(&time, &measured, &derived).over(&time, &measured);
+        let calm = derived.calming(&time, &measured).over(&time, &measured);
         [&derived.velocity, &calm.velocity].map(|velocity| {
             let square = |i: usize| (velocity[i] - motion(time[i])[1]).powi(2);
             (part.clone().map(square).sum::<f64>() / part.len() as f64).sqrt()
@@ -254,7 +296,7 @@ mod tests {
         // No multiple of a step of the displacement: as good as noise.
         let noise: Vec<f64> = (0..SAMPLES).map(|i| 0.01 * ((i * i) as f64 * 0.618).sin()).collect();
         let both = each(&measured, &noise, |a, b| a + b);
-        let calming = Calming::of(&time, &both, &from_displacement(&time, &both));
+        let calming = from_displacement(&time, &both).calming(&time, &both);
         let [all, motion, alone] = [&both, &measured, &noise].map(|series| calming.over(&time, series));
         let apart = |all: &[f64], a: &[f64], b: &[f64]| {
             let apart = |((all, a), b): ((&f64, &f64), &f64)| (all - a - b).abs();

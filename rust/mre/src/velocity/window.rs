@@ -12,7 +12,7 @@ const TRIAL_SAMPLES: usize = 4_000;
 const BETTER: f64 = 0.8;
 
 /// Samples on either side, and terms of the polynomial.
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Window {
     pub(super) half: usize,
     pub(super) terms: usize,
@@ -22,6 +22,25 @@ impl Window {
     /// The one with the smallest error of cross-validation; of few samples it is uncertain, and few terms carry less
     /// noise to the ends.
     pub(super) fn best(time: &[f64], displacement: &[f64], widest: usize, terms: &[usize]) -> Self {
+        Self::with_least([time, displacement], widest, terms, |Error { square, leverage }| {
+            square / (1.0 - leverage).powi(2)
+        })
+    }
+
+    /// The one with the smallest error (Mallows 1973, <https://doi.org/10.1080/00401706.1973.10489103>) where the noise is
+    /// known to have a variance: of few samples it is more certain.
+    pub(super) fn knowing(variance: f64, time: &[f64], displacement: &[f64], terms: &[usize]) -> Self {
+        Self::with_least([time, displacement], usize::MAX, terms, |Error { square, leverage }| {
+            square + 2.0 * variance * leverage
+        })
+    }
+
+    fn with_least(
+        [time, displacement]: [&[f64]; 2],
+        widest: usize,
+        terms: &[usize],
+        score: impl Fn(Error) -> f64,
+    ) -> Self {
         let n = time.len();
         let stride = n.div_ceil(TRIAL_SAMPLES);
         let mut best = (f64::INFINITY, Self { half: 0, terms: TERMS });
@@ -29,7 +48,7 @@ impl Window {
             let mut own = (f64::INFINITY, best.1);
             for half in candidates(((n - 1) / 2).min(widest)) {
                 let window = Self { half, terms: *terms };
-                let score = window.cross_validation(time, displacement, stride);
+                let score = score(window.error(time, displacement, stride));
                 // A wider window wins ties: it carries less noise into the velocity.
                 if score <= own.0 {
                     own = (score, window);
@@ -66,7 +85,7 @@ impl Window {
         (0..time.len()).into_par_iter().map(local).unzip()
     }
 
-    fn cross_validation(self, time: &[f64], displacement: &[f64], stride: usize) -> f64 {
+    fn error(self, time: &[f64], displacement: &[f64], stride: usize) -> Error {
         let picked: Vec<usize> = (0..time.len()).step_by(stride).collect();
         let fits = Fits::new(self, time, displacement);
         let errors: Vec<(f64, f64)> = picked
@@ -78,8 +97,16 @@ impl Window {
             .collect();
         let count = errors.len() as f64;
         let (squares, leverage) = errors.iter().fold((0.0, 0.0), |sum, e| (sum.0 + e.0, sum.1 + e.1));
-        (squares / count) / (1.0 - leverage / count).powi(2)
+        Error { square: squares / count, leverage: leverage / count }
     }
+}
+
+/// What a window leaves.
+struct Error {
+    /// Mean square.
+    square: f64,
+    /// Mean share that a sample has in its own value.
+    leverage: f64,
 }
 
 /// The fits of one window to a series.

@@ -64,7 +64,7 @@ impl World {
             return None;
         }
         // What noise of known motions does is no part of what a test shows.
-        let quiet = |doubts: &Doubts| Doubts { calming: None, ..doubts.clone() };
+        let quiet = |doubts: &Doubts| Doubts { left: None, ..doubts.clone() };
         let doubts = known.doubts().iter().map(quiet).chain([Doubts::default()]).collect();
         let campaign = Campaign::with_sizes(recordings, known.sizes().clone()).doubting(doubts);
         Some(Self { campaign, base })
