@@ -6,7 +6,7 @@ use std::sync::Arc;
 use rand_chacha::ChaCha8Rng;
 
 use crate::recording::Recording;
-use crate::velocity::{self, Calm, Calming, Derived, Left, Smoothed, Together};
+use crate::velocity::{self, Calm, Calming, Derived, Left, Parts, Smoothed, Together};
 
 /// A derived velocity differs from the recorded one by as much as that has noise, up to this factor.
 const ALIKE: f64 = 1.2;
@@ -40,9 +40,10 @@ pub(super) fn of_one_motion(recording: &Recording) -> (Arc<Recording>, Doubts) {
             without_corners(time, x, &derived, derived.calming(time, x))
         } else {
             // Across a corner a longer window takes off motion.
-            let left = some(Left::between_corners(x, &derived));
-            let Derived { displacement, velocity, corners, .. } = derived;
-            (displacement, velocity, Doubts { left_out: corners, cornered: true, left, ..Doubts::default() })
+            let parts = Parts::of(time, x, &derived);
+            let Calm { displacement, velocity, noisy } = parts.calm(time, x, &derived);
+            let (left_out, left) = (derived.corners, some(Left::Between(parts)));
+            (displacement, velocity, Doubts { left_out, noisy, cornered: true, left })
         }
     } else {
         let recorded = velocity::smoothed(time, x, v);

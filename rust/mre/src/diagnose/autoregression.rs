@@ -6,6 +6,8 @@ use crate::kernel::filter::dot;
 
 /// Length of the autoregression, s.
 const LENGTH: f64 = 0.3;
+/// Shortest of the longest, in samples: those of a slow rate have a resonance or a memory of some samples as well.
+const SHORTEST: usize = 6;
 /// Longest, in samples.
 const LONGEST: usize = 100;
 /// Samples for each of its coefficients, at least.
@@ -23,7 +25,7 @@ pub(super) struct Products {
 impl Products {
     pub(super) fn of(y: &[f64], step: f64) -> Self {
         let n = y.len();
-        let p = ((LENGTH / step).round() as usize).min(LONGEST).min(n / SAMPLES_EACH).max(1);
+        let p = ((LENGTH / step).round() as usize).clamp(SHORTEST, LONGEST).min(n / SAMPLES_EACH).max(1);
         let mut lags = DMatrix::zeros(p + 1, p + 1);
         for j in 0..=p {
             lags[(0, j)] = dot(&y[p..], &y[p - j..n - j]);

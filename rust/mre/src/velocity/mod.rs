@@ -9,12 +9,14 @@
 //! Known limit: displacement noise that is itself smooth cannot be told from motion.
 
 mod breaks;
+mod calming;
 mod corners;
 mod differences;
 mod left;
 mod local;
 mod low_pass;
 mod octaves;
+mod parts;
 mod recorded;
 mod smoothing;
 mod stencil;
@@ -25,11 +27,12 @@ use std::ops::Range;
 
 use crate::recording::even_step;
 use breaks::between_breaks;
+pub use calming::{Calm, Calming};
 use corners::corners;
 pub(crate) use corners::joined;
 pub(crate) use left::Left;
 use local::{NARROWEST, TERMS};
-pub use octaves::{Calm, Calming};
+pub(crate) use parts::Parts;
 pub(crate) use recorded::{Smoothed, smoothed};
 pub use smoothing::Smoothing;
 pub(crate) use together::Together;
@@ -77,7 +80,8 @@ impl Derived {
 
     /// How more noise is taken off it where it has no corners, derived from this displacement in mm.
     pub fn calming(&self, time: &[f64], displacement: &[f64]) -> Calming {
-        Calming::of(time, displacement, [self.displacement.clone(), self.velocity.clone()], self.half)
+        let window = Window { half: self.half, terms: TERMS };
+        Calming::of(time, displacement, [self.displacement.clone(), self.velocity.clone()], window)
     }
 
     /// Standard deviation in mm/s of the noise of this velocity where that of the displacement has this one in mm, on an

@@ -1,7 +1,7 @@
 //! A recorded velocity without its noise.
 
+use super::calming::Calming;
 use super::local::{NARROWEST, TERMS};
-use super::octaves::Calming;
 use super::smoothing::Smoothing;
 use super::together::{WIDEST, apart, squares};
 use super::window::Window;
@@ -66,7 +66,7 @@ pub(crate) fn smoothed(time: &[f64], displacement: &[f64], velocity: &[f64]) -> 
     }
     let way = match smoothing.0.as_slice() {
         [(_, window)] if corners.is_empty() => {
-            Way::Calmed(Calming::of(time, velocity, [smooth, slope], window.half))
+            Way::Calmed(Calming::of(time, velocity, [smooth, slope], *window))
         }
         _ => Way::Parts(smoothing),
     };

@@ -63,6 +63,11 @@ impl Window {
         best.1
     }
 
+    /// So many times twice as wide.
+    pub(super) fn wider(self, octaves: usize) -> Self {
+        Self { half: self.half << octaves, ..self }
+    }
+
     /// Samples for each term: the more, the less noise comes into the velocity.
     pub(super) fn calm(self) -> f64 {
         self.half as f64 / self.terms as f64

@@ -1,0 +1,57 @@
+//! A derived motion with corners, calmed between them.
+
+use std::ops::Range;
+
+use super::Derived;
+use super::calming::{Calm, Calming};
+use super::smoothing::Smoothing;
+
+/// How noise is taken off a motion with corners: the same way off everything that is added to it.
+#[derive(Debug, Clone)]
+pub(crate) struct Parts {
+    /// Standard deviation of the noise of the measured displacement, mm.
+    pub(crate) noise: f64,
+    smoothing: Smoothing,
+    /// More of what lies between corners.
+    calm: Vec<(Range<usize>, Calming)>,
+}
+
+impl Parts {
+    /// Of a measured displacement in mm.
+    pub(crate) fn of(time: &[f64], measured: &[f64], derived: &Derived) -> Self {
+        let smoothing = derived.smoothing.clone();
+        let variance = smoothing.variance(measured, &derived.displacement);
+        let between = smoothing.0.iter().filter(|(part, _)| part.len() < time.len());
+        let calm = between.map(|(part, window)| {
+            let own = |series: &[f64]| series[part.clone()].to_vec();
+            let motion = [own(&derived.displacement), own(&derived.velocity)];
+            let measured = [&time[part.clone()], &measured[part.clone()]];
+            (part.clone(), Calming::knowing(variance, measured, motion, *window))
+        });
+        Self { noise: variance.sqrt(), calm: calm.collect(), smoothing }
+    }
+
+    /// What it leaves of the displacement in mm that was measured; next to corners the velocity stays as it was derived.
+    pub(crate) fn calm(&self, time: &[f64], measured: &[f64], derived: &Derived) -> Calm {
+        let mut calm = self.over(time, measured);
+        let plain = self.smoothing.over(time, measured).0;
+        for (own, (derived, plain)) in calm.velocity.iter_mut().zip(derived.velocity.iter().zip(plain)) {
+            if *derived != plain {
+                *own = *derived;
+            }
+        }
+        calm
+    }
+
+    /// What it leaves of a displacement in mm.
+    pub(crate) fn over(&self, time: &[f64], displacement: &[f64]) -> Calm {
+        let (velocity, displacement_of_all) = self.smoothing.over(time, displacement);
+        let mut all = Calm { displacement: displacement_of_all, velocity, noisy: Vec::new() };
+        for (part, calming) in &self.calm {
+            let own = calming.over(&time[part.clone()], &displacement[part.clone()]);
+            all.displacement[part.clone()].copy_from_slice(&own.displacement);
+            all.velocity[part.clone()].copy_from_slice(&own.velocity);
+        }
+        all
+    }
+}
