@@ -73,7 +73,7 @@ mod tests {
     }
 
     /// What is left, of errors of displacement and velocity, is of the size of what is drawn.
-    fn alike(errors: [Vec<f64>; 2], drawn: &Calm) {
+    fn alike(errors: &[Vec<f64>; 2], drawn: &Calm) {
         for (errors, drawn) in errors.iter().zip([&drawn.displacement, &drawn.velocity]) {
             // Not at the ends, where few samples have much.
             let inner = 100..errors.len() - 100;
@@ -105,12 +105,12 @@ mod tests {
         let left = Left::recorded(recorded, together);
         let mut draws = ChaCha8Rng::seed_from_u64(13);
         let drawn = left.drawn([&time, &displacement, &velocity], &mut draws);
-        alike([less(&displacement, &x), less(&velocity, &v)], &drawn);
+        alike(&[less(&displacement, &x), less(&velocity, &v)], &drawn);
 
         let calming = from_displacement(&time, &seen).calming(&time, &seen);
         let calm = calming.over(&time, &seen);
         let drawn = Left::Derived(calming).drawn([&time, &seen, &v], &mut draws);
-        alike([less(&calm.displacement, &x), less(&calm.velocity, &v)], &drawn);
+        alike(&[less(&calm.displacement, &x), less(&calm.velocity, &v)], &drawn);
     }
 
     #[test]
