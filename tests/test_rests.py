@@ -13,7 +13,7 @@ def narrow(rng: np.random.Generator, samples: int, place: float, sharpness: floa
     """Noise of unit variance around a frequency in cycles per sample."""
     past = [1, -2 * sharpness * np.cos(2 * np.pi * place), sharpness**2]
     noise = np.asarray(lfilter([1], past, rng.normal(size=samples + 3000)))[3000:]
-    return noise / np.std(noise)
+    return np.asarray(noise / np.std(noise))
 
 
 def holds(rng: np.random.Generator, ramp: float, rate: float) -> tuple[Array, Array]:
