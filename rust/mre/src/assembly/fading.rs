@@ -33,7 +33,8 @@ impl Assembly<'_> {
         let mut fading: Vec<Vec<f64>> = others.iter().map(less).collect();
         let largest = fading.iter().flatten().fold(0.0_f64, |largest, w| largest.max(w.abs()));
         // Samples too far apart for these parameters show nothing of it.
-        if largest <= 0.0 || fading.iter().flatten().any(|w| !w.is_finite()) {
+        let whole = fading.iter().all(|w| w.len() == recording.len());
+        if !whole || largest <= 0.0 || fading.iter().flatten().any(|w| !w.is_finite()) {
             return Vec::new();
         }
         fading.iter_mut().flatten().for_each(|w| *w /= largest);

@@ -44,7 +44,7 @@ pub(super) fn without_drift(residuals: &[Vec<f64>], beside: &[Vec<f64>], spectra
 /// A residual less what slow columns explain of it.
 pub(super) fn without(residual: &[f64], slow: &[Vec<f64>]) -> Vec<f64> {
     let columns: Vec<&[f64]> = slow.iter().map(Vec::as_slice).collect();
-    unexplained(residual.to_vec(), &columns, |square| ALIKE * square)
+    unexplained(residual.to_vec(), &columns, |square| ALIKE * square.max(f64::MIN_POSITIVE))
 }
 
 /// Where what a drift leaves is not known, the residuals themselves.

@@ -1,6 +1,6 @@
 //! What noise of a motion does to products with the residual.
 //!
-//! The force does not follow the noise of a displacement whose velocity is derived, but columns do, and so does the
+//! The force does not follow the noise of a displacement or a velocity, but columns do, and so does the
 //! force of the model: of what is left, that part goes together with every column that answers to motion (errors in
 //! variables: Fuller 1987, <https://doi.org/10.1002/9780470316665>). How much is expected is told by the same noise added
 //! once more (Cook and Stefanski 1994, <https://doi.org/10.1080/01621459.1994.10476871>).

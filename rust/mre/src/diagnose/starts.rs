@@ -26,7 +26,7 @@ pub(super) fn with_initial_states(assembly: &Assembly, mut forces: Vec<Vec<f64>>
 /// A fit under correlated noise does not: it has little against a decay that this noise would make from one large
 /// first sample. Taken for noise, that decay would make the noise such a one.
 pub(super) fn without_initial_state(assembly: &Assembly, r: usize, residual: Vec<f64>) -> Vec<f64> {
-    let Some(columns) = decays(assembly, r) else { return residual };
+    let Some(columns) = remainders(assembly, r) else { return residual };
     // No remainder is larger than the force.
     let largest = assembly.campaign().sizes().force;
     let ridge = dot(&residual, &residual) / residual.len() as f64 / largest.powi(2);
@@ -41,7 +41,7 @@ pub(super) fn without_initial_state(assembly: &Assembly, r: usize, residual: Vec
 /// take off what slow noise is known by.
 pub(super) fn calm(assembly: &Assembly, residuals: &[Vec<f64>]) -> Vec<Option<Vec<f64>>> {
     let of_one = |(r, residual): (usize, &Vec<f64>)| {
-        let mut columns = decays(assembly, r)?;
+        let mut columns = remainders(assembly, r)?;
         columns.extend(line(residual.len()));
         Some(without(residual, &columns))
     };
@@ -49,7 +49,7 @@ pub(super) fn calm(assembly: &Assembly, residuals: &[Vec<f64>]) -> Vec<Option<Ve
 }
 
 /// What unknown initial states can add to the scored samples, if any.
-fn decays(assembly: &Assembly, r: usize) -> Option<Vec<Vec<f64>>> {
+fn remainders(assembly: &Assembly, r: usize) -> Option<Vec<Vec<f64>>> {
     let recording = &assembly.campaign().recordings()[r];
     let scored = |column: Vec<f64>| column[recording.scored()].to_vec();
     let all = |scene: Scene| InitialState.columns(&scene, &[]).into_iter().chain(scene.fading.to_vec());

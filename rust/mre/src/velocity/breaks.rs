@@ -43,7 +43,7 @@ pub(super) fn between_breaks(time: &[f64], displacement: &[f64]) -> Option<Deriv
         if part.len() > 2 * NARROWEST {
             Window::best(&time[part.clone()], &displacement[part.clone()], usize::MAX, &PART_TERMS)
         } else {
-            Window { half: (part.len() - 1) / 2, terms: 2 }
+            Window { half: ((part.len() - 1) / 2).max(1), terms: 2 }
         }
     };
     let parts = cut(&breaks, time.len()).map(|part| (part.clone(), window(&part)));
@@ -104,5 +104,17 @@ mod tests {
             let noisy: Vec<f64> = x.iter().enumerate().map(|(i, x)| x + noise(i)).collect();
             assert_eq!(breaks(&time, &noisy), [], "{frequency} Hz with noise");
         }
+    }
+
+    #[test]
+    fn two_samples_after_the_last_corner_are_left_out() {
+        let motion = |t: f64| 4.0 / std::f64::consts::PI * (std::f64::consts::TAU * t).sin().asin();
+        let time: Vec<f64> = (0..1053).map(|i| f64::from(i) / 200.0).collect();
+        let x: Vec<f64> = time.iter().map(|t| motion(*t)).collect();
+        let derived = from_displacement(&time, &x);
+        assert!(derived.corners.iter().any(|range| range.end == 1053), "{:?}", derived.corners);
+        let parts = super::super::Parts::of(&time, &x, &derived);
+        let calm = parts.calm(&time, &x, &derived);
+        assert!(calm.velocity.iter().all(|v| v.is_finite() && v.abs() < 8.1));
     }
 }

@@ -18,6 +18,7 @@ mod low_pass;
 mod octaves;
 mod parts;
 mod recorded;
+mod rest;
 mod smoothing;
 mod stencil;
 mod together;

@@ -1,10 +1,7 @@
 //! What windows of polynomials, each twice as wide as the one before, take off a motion, and what of it is noise.
 
-use rayon::prelude::*;
-
 use super::low_pass::LowPass;
 use super::window::Window;
-use crate::recording::mean;
 
 /// Widest half window in samples.
 const WIDEST: usize = 1024;
@@ -122,16 +119,6 @@ impl Noisy<'_> {
 /// What share of something is noise that has this mean square where noise alone has that.
 pub(super) fn noise_share(square: f64, noise: f64) -> f64 {
     if square > NOISE * noise { (NOISE * noise / square).powi(2) } else { 1.0 }
-}
-
-/// Mean square about the mean over so many samples on either side.
-pub(super) fn spread(series: &[f64], reach: usize) -> Vec<f64> {
-    let of = |i: usize| {
-        let own = &series[i.saturating_sub(reach)..(i + reach + 1).min(series.len())];
-        let middle = mean(own);
-        own.iter().map(|x| (x - middle).powi(2)).sum::<f64>() / own.len() as f64
-    };
-    (0..series.len()).into_par_iter().map(of).collect()
 }
 
 /// Mean square over so many samples on either side.

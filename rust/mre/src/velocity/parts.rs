@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::Derived;
 use super::calming::{Calm, Calming};
+use super::local::NARROWEST;
 use super::smoothing::Smoothing;
 
 /// How noise is taken off a motion with corners: the same way off everything that is added to it.
@@ -21,7 +22,9 @@ impl Parts {
     pub(crate) fn of(time: &[f64], measured: &[f64], derived: &Derived) -> Self {
         let smoothing = derived.smoothing.clone();
         let variance = smoothing.variance(measured, &derived.displacement);
-        let between = smoothing.0.iter().filter(|(part, _)| part.len() < time.len());
+        // Of fewer samples nothing more can be told.
+        let enough = 2 * NARROWEST + 1..time.len();
+        let between = smoothing.0.iter().filter(|(part, _)| enough.contains(&part.len()));
         let calm = between.map(|(part, window)| {
             let own = |series: &[f64]| series[part.clone()].to_vec();
             let motion = [own(&derived.displacement), own(&derived.velocity)];
@@ -45,8 +48,9 @@ impl Parts {
 
     /// What it leaves of a displacement in mm.
     pub(crate) fn over(&self, time: &[f64], displacement: &[f64]) -> Calm {
-        let (velocity, displacement_of_all) = self.smoothing.over(time, displacement);
-        let mut all = Calm { displacement: displacement_of_all, velocity, noisy: Vec::new() };
+        let (velocity, smooth) = self.smoothing.over(time, displacement);
+        // Columns of what was taken off short parts would take off much of a force.
+        let mut all = Calm { displacement: smooth, velocity, noisy: Vec::new() };
         for (part, calming) in &self.calm {
             let own = calming.over(&time[part.clone()], &displacement[part.clone()]);
             all.displacement[part.clone()].copy_from_slice(&own.displacement);

@@ -44,6 +44,8 @@ impl Smoothing {
         let pairs = series.iter().zip(smooth).zip(kept);
         let mut squares: Vec<f64> =
             pairs.filter(|(_, kept)| *kept > 0.0).map(|((x, s), kept)| (x - s).powi(2) / kept).collect();
+        // A rounded displacement that rests has none there.
+        squares.retain(|square| *square > 0.0);
         if squares.is_empty() {
             return 0.0;
         }

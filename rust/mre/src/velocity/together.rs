@@ -40,8 +40,8 @@ impl Together {
         let beside = less(displacement, &path);
         let window = Window::best(time, &beside, WIDEST, &[TERMS]);
         let kept = window.over(time, &beside).1;
-        // The path has an error as well.
         let found: Vec<f64> = kept.iter().zip(&path).map(|(d, s)| d + s).collect();
+        // The path has an error as well.
         let noise = if apart(&found, displacement) {
             let free = (1.0 - window.leverage()).max(f64::MIN_POSITIVE);
             (squares(&found, displacement) / time.len() as f64 / free).sqrt()

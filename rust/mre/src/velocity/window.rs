@@ -30,6 +30,9 @@ impl Window {
     /// The one with the smallest error (Mallows 1973, <https://doi.org/10.1080/00401706.1973.10489103>) where the noise is
     /// known to have a variance: of few samples it is more certain.
     pub(super) fn knowing(variance: f64, time: &[f64], displacement: &[f64], terms: &[usize]) -> Self {
+        if variance <= 0.0 {
+            return Self::best(time, displacement, usize::MAX, terms);
+        }
         Self::with_least([time, displacement], usize::MAX, terms, |Error { square, leverage }| {
             square + 2.0 * variance * leverage
         })
