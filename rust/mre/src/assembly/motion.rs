@@ -48,8 +48,7 @@ pub(super) fn of_one_motion(recording: &Recording) -> (Arc<Recording>, Doubts) {
     } else {
         let recorded = velocity::smoothed(time, x, v);
         better_derived([time, x, v], &recorded).unwrap_or_else(|| {
-            let together = Together::of(time, x, &recorded.velocity);
-            let [displacement, velocity] = together.over(time, x, &recorded.velocity);
+            let (together, [displacement, velocity]) = Together::of(time, x, &recorded.velocity);
             let left = some(Left::recorded(recorded, together));
             (displacement, velocity, Doubts { left, ..Doubts::default() })
         })

@@ -45,7 +45,7 @@ impl Calming {
     pub(super) fn of(time: &[f64], measured: &[f64], motion: Motion, window: Window) -> Self {
         let narrow = Smooth { motion, window, share: window.leverage() };
         let variance = narrow.left_of(measured) / (1.0 - narrow.share).max(f64::MIN_POSITIVE);
-        Self::from(&narrow, &Noisy { time, measured, step: step(time), variance })
+        Self::knowing(variance, [time, measured], narrow.motion, window)
     }
 
     /// The same where the noise of the displacement is known to have a variance in mm².

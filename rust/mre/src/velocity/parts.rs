@@ -36,9 +36,10 @@ impl Parts {
 
     /// What it leaves of the displacement in mm that was measured; next to corners the velocity stays as it was derived.
     pub(crate) fn calm(&self, time: &[f64], measured: &[f64], derived: &Derived) -> Calm {
-        let mut calm = self.over(time, measured);
-        let plain = self.smoothing.over(time, measured).0;
-        for (own, (derived, plain)) in calm.velocity.iter_mut().zip(derived.velocity.iter().zip(plain)) {
+        let plain = self.smoothing.over(time, measured);
+        let slopes = plain.0.clone();
+        let mut calm = self.calmed(time, measured, plain);
+        for (own, (derived, plain)) in calm.velocity.iter_mut().zip(derived.velocity.iter().zip(slopes)) {
             if *derived != plain {
                 *own = *derived;
             }
@@ -48,7 +49,11 @@ impl Parts {
 
     /// What it leaves of a displacement in mm.
     pub(crate) fn over(&self, time: &[f64], displacement: &[f64]) -> Calm {
-        let (velocity, smooth) = self.smoothing.over(time, displacement);
+        self.calmed(time, displacement, self.smoothing.over(time, displacement))
+    }
+
+    /// The same where the slopes and values of its polynomials are known.
+    fn calmed(&self, time: &[f64], displacement: &[f64], (velocity, smooth): (Vec<f64>, Vec<f64>)) -> Calm {
         // Columns of what was taken off short parts would take off much of a force.
         let mut all = Calm { displacement: smooth, velocity, noisy: Vec::new() };
         for (part, calming) in &self.calm {

@@ -34,8 +34,8 @@ pub(crate) struct Together {
 }
 
 impl Together {
-    /// Of a displacement in mm and a velocity in mm/s.
-    pub(crate) fn of(time: &[f64], displacement: &[f64], velocity: &[f64]) -> Self {
+    /// Of a displacement in mm and a velocity in mm/s, with what it makes of both.
+    pub(crate) fn of(time: &[f64], displacement: &[f64], velocity: &[f64]) -> (Self, [Vec<f64>; 2]) {
         let path = Plan::of(time, displacement, velocity).path();
         let beside = less(displacement, &path);
         let window = Window::best(time, &beside, WIDEST, &[TERMS]);
@@ -49,33 +49,39 @@ impl Together {
             0.0
         };
         let size = |series: &[f64]| series.iter().map(|x| x * x).sum::<f64>();
-        let wander = beside_the_motion(time, kept, [displacement, velocity]);
+        let wander = beside_the_motion(time, kept.clone(), [displacement, velocity]);
         let middle = mean(displacement);
         let motion: Vec<f64> = displacement.iter().map(|x| x - middle).collect();
         // A line has the calmest slope, also at the ends.
         let slow = || Window { half: SLOW.max(window.half).min((time.len() - 1) / 2), terms: 2 };
         let wanders = size(&wander) >= WANDER.powi(2) * size(&motion);
-        Self { noise, window, slow: wanders.then(slow) }
-    }
-
-    /// Both, of a displacement in mm and a velocity in mm/s.
-    pub(crate) fn over(&self, time: &[f64], displacement: &[f64], velocity: &[f64]) -> [Vec<f64>; 2] {
-        let path = Plan::of(time, displacement, velocity).path();
-        self.along([time, &path], [displacement, velocity], [displacement, velocity])
+        let together = Self { noise, window, slow: wanders.then(slow) };
+        let both = together.joined([time, &path, &kept], [displacement, velocity], || wander);
+        (together, both)
     }
 
     /// Both, of parts of a motion that have this path.
     pub(super) fn along(
         &self,
         [time, path]: [&[f64]; 2],
-        [displacement, velocity]: [&[f64]; 2],
+        parts: [&[f64]; 2],
         motion: [&[f64]; 2],
     ) -> [Vec<f64>; 2] {
-        let kept = self.window.over(time, &less(displacement, path)).1;
+        let kept = self.window.over(time, &less(parts[0], path)).1;
+        self.joined([time, path, &kept], parts, || beside_the_motion(time, kept.clone(), motion))
+    }
+
+    /// Both, of what is kept beside the path, and how that wanders.
+    fn joined(
+        &self,
+        [time, path, kept]: [&[f64]; 3],
+        [displacement, velocity]: [&[f64]; 2],
+        wander: impl FnOnce() -> Vec<f64>,
+    ) -> [Vec<f64>; 2] {
         let found = kept.iter().zip(path).map(|(d, s)| d + s);
         let x = if self.noise > 0.0 { found.collect() } else { displacement.to_vec() };
         let Some(slow) = self.slow else { return [x, velocity.to_vec()] };
-        let strays = slow.over(time, &beside_the_motion(time, kept, motion)).0;
+        let strays = slow.over(time, &wander()).0;
         [x, velocity.iter().zip(strays).map(|(v, strays)| v + strays).collect()]
     }
 }
@@ -148,7 +154,7 @@ pub(super) mod tests {
     }
 
     fn together(time: &[f64], displacement: &[f64], velocity: &[f64]) -> Vec<f64> {
-        let [x, _] = Together::of(time, displacement, velocity).over(time, displacement, velocity);
+        let (_, [x, _]) = Together::of(time, displacement, velocity);
         x
     }
 

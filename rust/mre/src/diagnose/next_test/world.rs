@@ -64,7 +64,12 @@ impl World {
             return None;
         }
         // What noise of known motions does is no part of what a test shows.
-        let quiet = |doubts: &Doubts| Doubts { left: None, ..doubts.clone() };
+        let quiet = |Doubts { left_out, noisy, cornered, .. }: &Doubts| Doubts {
+            left_out: left_out.clone(),
+            noisy: noisy.clone(),
+            cornered: *cornered,
+            left: None,
+        };
         let doubts = known.doubts().iter().map(quiet).chain([Doubts::default()]).collect();
         let campaign = Campaign::with_sizes(recordings, known.sizes().clone()).doubting(doubts);
         Some(Self { campaign, base })
