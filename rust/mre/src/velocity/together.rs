@@ -11,6 +11,13 @@ pub(super) const WIDEST: usize = 200;
 
 /// Noise below this share of a series, rms, is left in it.
 const NEGLIGIBLE: f64 = 1e-4;
+/// White noise below this share of it: beside a slow noise of the force it stands out.
+const FAINT: f64 = 1e-6;
+
+/// Neighbours whose correlation tells white noise from the error of a path.
+const LAGS: usize = 4;
+/// It is less than this.
+const WHITE: f64 = 0.2;
 
 /// A displacement and the path of its velocity come apart by this share of it where noise of the velocity moves a path; what
 /// follows displacement, velocity or acceleration is another error.
@@ -42,7 +49,7 @@ impl Together {
         let kept = window.over(time, &beside).1;
         let found: Vec<f64> = kept.iter().zip(&path).map(|(d, s)| d + s).collect();
         // The path has an error as well.
-        let noise = if apart(&found, displacement) {
+        let noise = if apart(&found, displacement) || faint(&less(displacement, &found), displacement) {
             let free = (1.0 - window.leverage()).max(f64::MIN_POSITIVE);
             (squares(&found, displacement) / time.len() as f64 / free).sqrt()
         } else {
@@ -128,6 +135,15 @@ pub(super) fn apart(found: &[f64], series: &[f64]) -> bool {
     squares(found, series) > NEGLIGIBLE.powi(2) * series.iter().map(|x| x * x).sum::<f64>()
 }
 
+/// True where what was taken off a series is little, but white noise.
+fn faint(taken: &[f64], series: &[f64]) -> bool {
+    let square = dot(taken, taken);
+    let along = |lag: usize| dot(&taken[lag..], &taken[..taken.len() - lag]).abs();
+    square > FAINT.powi(2) * dot(series, series)
+        && taken.len() > LAGS
+        && (1..=LAGS).all(|lag| along(lag) < WHITE * square)
+}
+
 /// Sum of squared differences.
 pub(super) fn squares(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum()
@@ -163,6 +179,26 @@ pub(super) mod tests {
         let [time, shown, velocity, truth] = shaken(0.01);
         let found = together(&time, &shown, &velocity);
         assert!(rms(&found, &truth) < 0.2 * rms(&shown, &truth));
+    }
+
+    #[test]
+    fn noise_is_taken_off_however_little_and_the_error_of_a_path_is_none() {
+        let noise = |i: usize| {
+            let x = ((i * i) as f64 * 0.618 + 0.3 * i as f64).sin() * 43_758.545;
+            x - x.floor() - 0.5
+        };
+        for size in [1e-3, 1e-4, 3e-5] {
+            let [time, _, velocity, truth] = shaken(0.0);
+            let shown: Vec<f64> = truth.iter().enumerate().map(|(i, x)| x + size * noise(i)).collect();
+            let left = rms(&together(&time, &shown, &velocity), &truth) / rms(&shown, &truth);
+            assert!(left < 0.2, "{left} of {size} mm");
+        }
+        // 12 samples a cycle.
+        let turn = std::f64::consts::TAU;
+        let time: Vec<f64> = (0..2000).map(|i| f64::from(i) / 200.0).collect();
+        let motion = |of: fn(f64) -> f64| time.iter().map(|t| of(16.67 * turn * t)).collect::<Vec<f64>>();
+        let (x, v) = (motion(f64::sin), motion(|phase| 16.67 * std::f64::consts::TAU * phase.cos()));
+        assert_eq!(together(&time, &x, &v), x);
     }
 
     #[test]
