@@ -48,7 +48,7 @@ pub(super) fn of_one_motion(recording: &Recording) -> (Arc<Recording>, Doubts) {
     } else {
         let recorded = velocity::smoothed(time, x, v);
         better_derived([time, x, v], &recorded).unwrap_or_else(|| {
-            let (together, [displacement, velocity]) = Together::of(time, x, &recorded.velocity);
+            let (together, [displacement, velocity]) = Together::of(time, x, &recorded);
             let left = some(Left::recorded(recorded, together));
             (displacement, velocity, Doubts { left, ..Doubts::default() })
         })
@@ -71,7 +71,7 @@ fn without_corners(time: &[f64], x: &[f64], derived: &Derived, calming: Calming)
 
 /// A motion whose velocity has less noise than the recorded one where it is derived from the displacement.
 fn better_derived([time, x, v]: [&[f64]; 3], recorded: &Smoothed) -> Option<Motion> {
-    if recorded.noise <= 0.0 || recorded.jumps {
+    if recorded.noise <= 0.0 || !recorded.jumps.is_empty() {
         return None;
     }
     let derived = velocity::from_displacement(time, x);

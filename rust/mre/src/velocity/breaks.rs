@@ -1,12 +1,8 @@
 //! Corners between two samples of a motion: slopes of the displacement jump there, and polynomials across one ring.
 
-use std::ops::Range;
-
 use super::corners::corners;
-use super::local::NARROWEST;
 use super::smoothing::Smoothing;
-use super::window::Window;
-use super::{Derived, END, PART_TERMS, cut, joined};
+use super::{Derived, END, PART_TERMS, joined};
 use crate::kernel::jumps::{ALONE, IN_TWO, STANDS_OUT, even, sharp, usual_change};
 
 /// The last samples before corners of a displacement in mm, in rising order. One within two samples of an end is not seen.
@@ -39,19 +35,7 @@ pub(super) fn between_breaks(time: &[f64], displacement: &[f64]) -> Option<Deriv
     if breaks.is_empty() {
         return None;
     }
-    let window = |part: &Range<usize>| {
-        if part.len() > 2 * NARROWEST {
-            Window::best(&time[part.clone()], &displacement[part.clone()], usize::MAX, &PART_TERMS)
-        } else {
-            Window { half: ((part.len() - 1) / 2).max(1), terms: 2 }
-        }
-    };
-    let parts = cut(&breaks, time.len()).map(|part| (part.clone(), window(&part)));
-    let mut smoothing = Smoothing(parts.collect());
-    let variance = smoothing.variance(displacement, &smoothing.over(time, displacement).1);
-    for (part, window) in smoothing.0.iter_mut().filter(|(part, _)| part.len() > 2 * NARROWEST) {
-        *window = Window::knowing(variance, &time[part.clone()], &displacement[part.clone()], &PART_TERMS);
-    }
+    let smoothing = Smoothing::between(&breaks, time, displacement, &PART_TERMS);
     let (velocity, smooth) = smoothing.over(time, displacement);
     let mut doubted = Vec::new();
     for (part, window) in &smoothing.0 {
@@ -64,7 +48,7 @@ pub(super) fn between_breaks(time: &[f64], displacement: &[f64]) -> Option<Deriv
         let noisy = window.half.div_ceil(END).min(part.len());
         doubted.extend([part.start..part.start + noisy, part.end - noisy..part.end]);
     }
-    let half = smoothing.0.iter().map(|(_, window)| window.half).max().unwrap_or(1);
+    let half = smoothing.half();
     Some(Derived { velocity, displacement: smooth, half, corners: joined(doubted), smoothing })
 }
 

@@ -100,7 +100,7 @@ mod tests {
         let (seen, shown) = (noisy(&x, 0.01), noisy(&v, 0.1));
 
         let recorded = smoothed(&time, &seen, &shown);
-        let (together, [displacement, velocity]) = Together::of(&time, &seen, &recorded.velocity);
+        let (together, [displacement, velocity]) = Together::of(&time, &seen, &recorded);
         let left = Left::recorded(recorded, together);
         let mut draws = ChaCha8Rng::seed_from_u64(13);
         let drawn = left.drawn([&time, &displacement, &velocity], &mut draws);
@@ -119,7 +119,7 @@ mod tests {
         let (x, v): (Vec<f64>, Vec<f64>) =
             time.iter().map(|t| (5.0 * (turn * t).sin(), 5.0 * turn * (turn * t).cos())).unzip();
         let recorded = smoothed(&time, &x, &v);
-        let (together, _) = Together::of(&time, &x, &recorded.velocity);
+        let (together, _) = Together::of(&time, &x, &recorded);
         assert!(Left::recorded(recorded, together).is_none());
     }
 }

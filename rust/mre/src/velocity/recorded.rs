@@ -3,7 +3,7 @@
 use super::calming::Calming;
 use super::local::{NARROWEST, TERMS};
 use super::smoothing::Smoothing;
-use super::together::{WIDEST, apart, squares};
+use super::together::{WIDEST, apart};
 use super::window::Window;
 use super::{PART_TERMS, cut};
 use crate::kernel::jumps::jumps;
@@ -40,45 +40,34 @@ pub(crate) struct Smoothed {
     pub(crate) noise: f64,
     /// The same of what is left of it, mm/s.
     pub(crate) left: f64,
-    /// True where it jumps between samples, as a slope of the displacement cannot.
-    pub(crate) jumps: bool,
+    /// The last samples before it jumps, as a slope of the displacement cannot.
+    pub(crate) jumps: Vec<usize>,
     pub(super) way: Way,
 }
 
 /// A recorded velocity in mm/s less its noise, where it has some everywhere; it keeps its jumps.
 pub(crate) fn smoothed(time: &[f64], displacement: &[f64], velocity: &[f64]) -> Smoothed {
-    let corners = jumps(time, displacement, velocity);
-    let terms: &[usize] = if corners.is_empty() { &[TERMS] } else { &PART_TERMS };
-    let lasts: Vec<usize> = corners.iter().map(|(i, _)| *i).collect();
-    let parts = cut(&lasts, velocity.len()).filter(|part| part.len() > 2 * NARROWEST);
+    let jumps: Vec<usize> = jumps(time, displacement, velocity).into_iter().map(|(i, _)| i).collect();
+    let terms: &[usize] = if jumps.is_empty() { &[TERMS] } else { &PART_TERMS };
+    let parts = cut(&jumps, velocity.len()).filter(|part| part.len() > 2 * NARROWEST);
     let window = |part: &std::ops::Range<usize>| {
         Window::best(&time[part.clone()], &velocity[part.clone()], WIDEST, terms)
     };
     let smoothing = Smoothing(parts.map(|part| (part.clone(), window(&part))).collect());
     let (slope, smooth) = smoothing.over(time, velocity);
-    let (mut noise, mut left) = (0.0, 0.0);
-    for (part, window) in &smoothing.0 {
-        let share = window.leverage();
-        let taken = squares(&smooth[part.clone()], &velocity[part.clone()]);
-        let square = taken / (1.0 - share).max(f64::MIN_POSITIVE);
-        noise += square;
-        left += share * square;
-    }
+    let (noise, left) = smoothing.noise(velocity, &smooth);
     let way = match smoothing.0.as_slice() {
-        [(_, window)] if corners.is_empty() => {
+        [(_, window)] if jumps.is_empty() => {
             Way::Calmed(Calming::of(time, velocity, [smooth, slope], *window))
         }
         _ => Way::Parts(smoothing),
     };
     let found = way.over(time, velocity);
     let mut taken: Vec<f64> = found.iter().zip(velocity).map(|(a, b)| (a - b).powi(2)).collect();
-    let count = taken.len() as f64;
     let average = mean(&taken);
     let middle = taken.len() / 2;
     let (_, median, _) = taken.select_nth_unstable_by(middle, f64::total_cmp);
-    let jumps = !corners.is_empty();
     if apart(&found, velocity) && *median > EVERYWHERE * average {
-        let [noise, left] = [noise, left].map(|squares| (squares / count).sqrt());
         Smoothed { velocity: found, noise, left, jumps, way }
     } else {
         Smoothed { velocity: velocity.to_vec(), noise: 0.0, left: 0.0, jumps, way }

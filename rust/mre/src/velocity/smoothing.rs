@@ -4,6 +4,8 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
+use super::cut;
+use super::local::NARROWEST;
 use super::window::Window;
 
 /// Median of the square of a normal variable of variance one.
@@ -14,6 +16,58 @@ const GAUSSIAN: f64 = 0.455;
 pub struct Smoothing(pub(super) Vec<(Range<usize>, Window)>);
 
 impl Smoothing {
+    /// Of parts that end after some samples; `terms` of the polynomials are tried in the longer ones.
+    pub(super) fn between(after: &[usize], time: &[f64], series: &[f64], terms: &[usize]) -> Self {
+        let long = |part: &Range<usize>| part.len() > 2 * NARROWEST;
+        let window = |part: &Range<usize>| {
+            if long(part) {
+                Window::best(&time[part.clone()], &series[part.clone()], usize::MAX, terms)
+            } else {
+                Window { half: ((part.len() - 1) / 2).max(1), terms: terms[0] }
+            }
+        };
+        let mut all = Self(cut(after, time.len()).map(|part| (part.clone(), window(&part))).collect());
+        // Of all parts the noise is more certain than of each.
+        let variance = all.variance(series, &all.over(time, series).1);
+        for (part, window) in all.0.iter_mut().filter(|(part, _)| long(part)) {
+            *window = Window::knowing(variance, &time[part.clone()], &series[part.clone()], terms);
+        }
+        all
+    }
+
+    /// Half the longest window, in samples.
+    pub(super) fn half(&self) -> usize {
+        self.0.iter().map(|(_, window)| window.half).max().unwrap_or(1)
+    }
+
+    /// A series less its steps between parts.
+    pub(super) fn continued(&self, series: &[f64]) -> Vec<f64> {
+        let mut level = 0.0;
+        let mut whole = series.to_vec();
+        for (part, _) in self.0.iter().filter(|(part, _)| part.start > 0) {
+            level += series[part.start] - series[part.start - 1];
+            whole[part.clone()].iter_mut().for_each(|value| *value -= level);
+        }
+        whole
+    }
+
+    /// Standard deviations of the noise of a series, and of what smoothing leaves of it, from what it takes off.
+    pub(super) fn noise(&self, series: &[f64], smooth: &[f64]) -> (f64, f64) {
+        let (mut noise, mut left, mut count) = (0.0, 0.0, 0);
+        // Less is met by a line.
+        for (part, window) in self.0.iter().filter(|(part, _)| part.len() > 2) {
+            let share = window.leverage();
+            let pairs = smooth[part.clone()].iter().zip(&series[part.clone()]);
+            let taken: f64 = pairs.map(|(a, b)| (a - b).powi(2)).sum();
+            let square = taken / (1.0 - share).max(f64::MIN_POSITIVE);
+            noise += square;
+            left += share * square;
+            count += part.len();
+        }
+        let deviation = |squares: f64| (squares / count.max(1) as f64).sqrt();
+        (deviation(noise), deviation(left))
+    }
+
     /// Slope and value at every sample of a series that the parts cover.
     pub fn over(&self, time: &[f64], series: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let (mut slope, mut value) = (vec![0.0; series.len()], series.to_vec());

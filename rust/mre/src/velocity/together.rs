@@ -1,6 +1,9 @@
 //! A displacement and the velocity that was recorded beside it, as one motion.
 
+use super::PART_TERMS;
 use super::local::TERMS;
+use super::recorded::Smoothed;
+use super::smoothing::Smoothing;
 use super::window::Window;
 use crate::kernel::filter::dot;
 use crate::kernel::intervals::Plan;
@@ -23,6 +26,9 @@ const WHITE: f64 = 0.2;
 /// follows displacement, velocity or acceleration is another error.
 const WANDER: f64 = 3e-4;
 
+/// Terms of the polynomials between jumps of the velocity: beside the path of a good one a displacement has a constant there.
+const BESIDE_TERMS: [usize; 1 + PART_TERMS.len()] = [1, PART_TERMS[0], PART_TERMS[1], PART_TERMS[2]];
+
 /// Half window in samples, at least, over which the two come together again.
 const SLOW: usize = 20;
 
@@ -30,39 +36,46 @@ const SLOW: usize = 20;
 /// path leave the displacement.
 ///
 /// What the displacement has beside the path of the velocity is smoothed, over a window that keeps all of it
-/// that is not noise: drift of the path, and any motion that the velocity misses.
+/// that is not noise: drift of the path, and any motion that the velocity misses. Where the velocity jumps between two samples
+/// the path has the error of the place of its corner, and each part is smoothed on its own.
 #[derive(Debug, Clone)]
 pub(crate) struct Together {
     /// Standard deviation of the noise that the displacement had, mm; zero where there was none to be taken off.
     pub(crate) noise: f64,
-    window: Window,
+    /// Of what is beside the path.
+    smoothing: Smoothing,
     /// Over which a path that wanders comes back.
     slow: Option<Window>,
 }
 
 impl Together {
-    /// Of a displacement in mm and a velocity in mm/s, with what it makes of both.
-    pub(crate) fn of(time: &[f64], displacement: &[f64], velocity: &[f64]) -> (Self, [Vec<f64>; 2]) {
+    /// Of a displacement in mm and a velocity in mm/s less its noise, with what it makes of both.
+    pub(crate) fn of(time: &[f64], displacement: &[f64], recorded: &Smoothed) -> (Self, [Vec<f64>; 2]) {
+        let velocity = &recorded.velocity;
         let path = Plan::of(time, displacement, velocity).path();
         let beside = less(displacement, &path);
-        let window = Window::best(time, &beside, WIDEST, &[TERMS]);
-        let kept = window.over(time, &beside).1;
+        let smoothing = if recorded.jumps.is_empty() {
+            Smoothing(vec![(0..time.len(), Window::best(time, &beside, WIDEST, &[TERMS]))])
+        } else {
+            Smoothing::between(&recorded.jumps, time, &beside, &BESIDE_TERMS)
+        };
+        let kept = smoothing.over(time, &beside).1;
         let found: Vec<f64> = kept.iter().zip(&path).map(|(d, s)| d + s).collect();
         // The path has an error as well.
         let noise = if apart(&found, displacement) || faint(&less(displacement, &found), displacement) {
-            let free = (1.0 - window.leverage()).max(f64::MIN_POSITIVE);
-            (squares(&found, displacement) / time.len() as f64 / free).sqrt()
+            smoothing.noise(&found, displacement).0
         } else {
             0.0
         };
         let size = |series: &[f64]| series.iter().map(|x| x * x).sum::<f64>();
-        let wander = beside_the_motion(time, kept.clone(), [displacement, velocity]);
+        let wander = beside_the_motion(time, smoothing.continued(&kept), [displacement, velocity]);
         let middle = mean(displacement);
         let motion: Vec<f64> = displacement.iter().map(|x| x - middle).collect();
         // A line has the calmest slope, also at the ends.
-        let slow = || Window { half: SLOW.max(window.half).min((time.len() - 1) / 2), terms: 2 };
+        let slow = || Window { half: SLOW.max(smoothing.half()).min((time.len() - 1) / 2), terms: 2 };
         let wanders = size(&wander) >= WANDER.powi(2) * size(&motion);
-        let together = Self { noise, window, slow: wanders.then(slow) };
+        let slow = wanders.then(slow);
+        let together = Self { noise, smoothing, slow };
         let both = together.joined([time, &path, &kept], [displacement, velocity], || wander);
         (together, both)
     }
@@ -74,8 +87,9 @@ impl Together {
         parts: [&[f64]; 2],
         motion: [&[f64]; 2],
     ) -> [Vec<f64>; 2] {
-        let kept = self.window.over(time, &less(parts[0], path)).1;
-        self.joined([time, path, &kept], parts, || beside_the_motion(time, kept.clone(), motion))
+        let kept = self.smoothing.over(time, &less(parts[0], path)).1;
+        let wander = || beside_the_motion(time, self.smoothing.continued(&kept), motion);
+        self.joined([time, path, &kept], parts, wander)
     }
 
     /// Both, of what is kept beside the path, and how that wanders.
@@ -170,7 +184,7 @@ pub(super) mod tests {
     }
 
     fn together(time: &[f64], displacement: &[f64], velocity: &[f64]) -> Vec<f64> {
-        let (_, [x, _]) = Together::of(time, displacement, velocity);
+        let (_, [x, _]) = Together::of(time, displacement, &smoothed(time, displacement, velocity));
         x
     }
 
