@@ -14,7 +14,7 @@ use crate::error::{Error, Result};
 use crate::recording::{Condition, Recording};
 
 /// Times that the noise of motions is drawn anew.
-const SHAKEN: u64 = 2;
+const SHAKEN: u64 = 16;
 
 /// Recordings with sizes, and what is derived of them.
 #[derive(Debug, Clone)]

@@ -5,6 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::bounded;
 use super::distribution::{chi_square_beyond, chi_square_tail};
 use super::shaken::unsure;
+use super::strays::Strays;
 
 /// Share of a column's square that has to survive the projection: below it the column is absorbed.
 pub(super) const SMALLEST_SHARE: f64 = 1e-8;
@@ -34,6 +35,22 @@ impl Block {
             }
         }
         Self { gram, lower, upper, visible }
+    }
+
+    /// The same where noise of the motions scatters the products further.
+    pub(super) fn scattered(&self, strays: &Strays) -> Self {
+        let eigen = self.gram.clone().symmetric_eigen();
+        let smallest = 1e-12 * eigen.eigenvalues.max();
+        let kept: Vec<usize> =
+            (0..eigen.eigenvalues.len()).filter(|i| eigen.eigenvalues[*i] > smallest).collect();
+        let scaled = |power: f64| {
+            DMatrix::from_fn(self.gram.nrows(), kept.len(), |i, k| {
+                eigen.eigenvectors[(i, kept[k])] * eigen.eigenvalues[kept[k]].powf(power)
+            })
+        };
+        let root = scaled(0.5);
+        let gram = &root * strays.combined(&scaled(-0.5).transpose()).covariance() * root.transpose();
+        Self { gram, lower: self.lower.clone(), upper: self.upper.clone(), ..*self }
     }
 
     /// Squared standard deviations that the columns take off, with admissible coefficients.

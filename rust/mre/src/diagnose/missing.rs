@@ -1,7 +1,7 @@
 //! Is anything missing? One test for any mismatch: of generic features with memory, and of every recording
 //! against the others.
 
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
 use super::distribution::{CAUTION, chi_square_tail};
 use super::features::{On, features};
@@ -9,6 +9,7 @@ use super::locate::strengths;
 use super::null::Null;
 use super::projection::Projection;
 use super::shaken::unsure;
+use super::strays::Strays;
 use crate::effect::Scene;
 
 /// Share of a feature's square that the projection has to leave.
@@ -68,23 +69,26 @@ impl Mismatch {
 
 /// Projected products of some columns, scaled to unit length.
 pub(super) struct Projected {
-    gram: nalgebra::DMatrix<f64>,
+    gram: DMatrix<f64>,
     right: DVector<f64>,
     bias: DVector<f64>,
+    strays: Strays,
 }
 
 impl Projected {
     /// Columns that the projection leaves.
-    pub(super) fn of(Projection { gram, right, bias, squares }: &Projection, chosen: &[usize]) -> Self {
+    pub(super) fn of(all: &Projection, chosen: &[usize]) -> Self {
+        let Projection { gram, right, bias, squares, strays } = all;
         let kept: Vec<usize> =
             chosen.iter().copied().filter(|i| gram[(*i, *i)] > SMALLEST_SHARE * squares[*i]).collect();
         let scale: Vec<f64> = kept.iter().map(|i| 1.0 / gram[(*i, *i)].sqrt()).collect();
         Self {
-            gram: nalgebra::DMatrix::from_fn(kept.len(), kept.len(), |a, b| {
+            gram: DMatrix::from_fn(kept.len(), kept.len(), |a, b| {
                 gram[(kept[a], kept[b])] * scale[a] * scale[b]
             }),
             right: DVector::from_fn(kept.len(), |a, _| right[kept[a]] * scale[a]),
             bias: DVector::from_fn(kept.len(), |a, _| bias[kept[a]] * scale[a]),
+            strays: strays.of(&kept, &scale),
         }
     }
 
@@ -94,16 +98,15 @@ impl Projected {
             return Mismatch::NONE;
         }
         let eigen = self.gram.symmetric_eigen();
-        let kept = eigen
-            .eigenvalues
-            .iter()
-            .zip(eigen.eigenvectors.column_iter())
-            .filter(|(value, _)| **value > 1e-6);
-        let along = |product: &DVector<f64>| -> DVector<f64> {
-            let each = kept.clone().map(|(value, vector)| vector.dot(product) / value.sqrt());
-            DVector::from_vec(each.collect())
-        };
-        let (right, bias) = (along(&self.right), along(&self.bias));
+        let kept: Vec<usize> =
+            (0..eigen.eigenvalues.len()).filter(|i| eigen.eigenvalues[*i] > 1e-6).collect();
+        let along = DMatrix::from_fn(kept.len(), self.right.len(), |k, i| {
+            eigen.eigenvectors[(i, kept[k])] / eigen.eigenvalues[kept[k]].sqrt()
+        });
+        let covariance = self.strays.combined(&along).covariance();
+        let Some(factor) = covariance.cholesky() else { return Mismatch::NONE };
+        let even = |product: &DVector<f64>| factor.l().solve_lower_triangular(&(&along * product));
+        let (Some(right), Some(bias)) = (even(&self.right), even(&self.bias)) else { return Mismatch::NONE };
         let further = unsure(right.dot(&bias) / bias.norm_squared());
         Mismatch::new((&right - &bias * further).norm_squared(), right.len())
     }

@@ -67,6 +67,7 @@ mod splits;
 mod starts;
 mod step;
 mod strained;
+mod strays;
 mod tangents;
 mod uneven;
 mod unknown;

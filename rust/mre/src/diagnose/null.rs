@@ -7,7 +7,8 @@ use super::noise::Noise;
 use super::normal::whitened;
 use super::point::Point;
 use super::projection::{Projection, View};
-use super::shaken::Shaken;
+use super::shaken::{Change, Shaken, square};
+use super::strays::Strays;
 use super::tangents::tangents_at;
 use crate::assembly::Assembly;
 use crate::effect::{Effect, Scene};
@@ -27,6 +28,9 @@ pub(super) struct Null<'a> {
     /// What the noise of the motions does to them.
     shaken: Vec<Shaken<'a>>,
     bias: DVector<f64>,
+    /// What more draws of it do to the force.
+    more: Vec<Change>,
+    strays: DMatrix<f64>,
 }
 
 impl<'a> Null<'a> {
@@ -37,7 +41,7 @@ impl<'a> Null<'a> {
         let assembly = assembly.knowing(&assembly.physical(unit));
         let mut point = Point::at(&assembly, data, unit.to_vec());
         let known = point.fitted.coefficients.len() + unit.len();
-        let mut shaken = Shaken::of(&assembly, data, &point);
+        let (mut shaken, more) = Shaken::of(&assembly, data, &point);
         let tangents = tangents_at(&assembly, data, &mut point, known);
         let last = tangents.iter().flatten().map(|(place, _)| place + 1).max();
         let count = last.unwrap_or(0).max(known);
@@ -70,7 +74,21 @@ impl<'a> Null<'a> {
             gram[(i, j)] * scale[i] * scale[j] + unit
         });
         let factor = scaled.cholesky()?;
-        Some(Self { assembly, data, point, tangents, factor, scale, right, shaken, bias })
+        let draws = shaken.iter().map(Shaken::change).chain(&more);
+        let mut strays = DMatrix::<f64>::zeros(count, draws.clone().count());
+        for (k, change) in draws.enumerate() {
+            for (columns, change) in tangents.iter().zip(change) {
+                for (i, a) in columns {
+                    strays[(*i, k)] += dot(a, change);
+                }
+            }
+        }
+        Some(Self { assembly, data, point, tangents, factor, scale, right, shaken, bias, more, strays })
+    }
+
+    /// What draws of the noise of the motions do to the force.
+    pub(super) fn changes(&self) -> impl Iterator<Item = &Change> {
+        self.shaken.iter().map(Shaken::change).chain(&self.more)
     }
 
     /// True where the search was broken off.
@@ -123,6 +141,8 @@ impl<'a> Null<'a> {
         let mut cross = DMatrix::<f64>::zeros(tangent_count, count);
         let mut right = DVector::<f64>::zeros(count);
         let mut bias = DVector::<f64>::zeros(count);
+        let draws: Vec<&Change> = if shaken.is_empty() { Vec::new() } else { self.changes().collect() };
+        let mut strays = DMatrix::<f64>::zeros(count, draws.len());
         let here = self.view();
         let there: Vec<View> = shaken.iter().map(Shaken::view).collect();
         let white = |r: usize, (i, series): (usize, Vec<f64>)| {
@@ -134,6 +154,9 @@ impl<'a> Null<'a> {
                 right[*i] += dot(z, &local.residual);
                 for (j, t) in &self.tangents[r] {
                     cross[(*j, *i)] += dot(t, z);
+                }
+                for (k, change) in draws.iter().enumerate() {
+                    strays[(*i, k)] += dot(z, &change[r]);
                 }
                 gram[(*i, *i)] += dot(z, z);
                 for (j, other) in &own[..n] {
@@ -158,7 +181,16 @@ impl<'a> Null<'a> {
         };
         let bias = bias - of_tangents(&self.bias);
         let right = right - of_tangents(&self.right);
-        Projection { gram: gram - &solved * &scaled, right, bias, squares }
+        let strays = if draws.is_empty() {
+            Strays::none(count)
+        } else {
+            let of_tangents =
+                DMatrix::from_fn(tangent_count, draws.len(), |j, k| self.strays[(j, k)] * self.scale[j]);
+            let samples: usize = self.point.recordings.iter().map(|local| local.residual.len()).sum();
+            let mean = draws.iter().map(|change| square(change)).sum::<f64>() / draws.len() as f64;
+            Strays::new(strays - &solved * of_tangents, mean / samples.max(1) as f64)
+        };
+        Projection { gram: gram - &solved * &scaled, right, bias, squares, strays }
     }
 
     /// The recordings as they are.

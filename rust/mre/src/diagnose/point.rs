@@ -100,6 +100,14 @@ impl Point {
         Self { fitted: self.fitted.clone(), recordings, normal: Normal::zeros(0) }
     }
 
+    /// The force in N of the same model alone, by recording.
+    pub(super) fn force_elsewhere(&self, assembly: &Assembly) -> Vec<Vec<f64>> {
+        let shapes = assembly.physical(&self.fitted.unit);
+        let jobs: Vec<(usize, &[f64])> = (0..self.recordings.len()).map(|r| (r, shapes.as_slice())).collect();
+        let columns = assembly.columns_of(&jobs);
+        columns.iter().map(|columns| columns.measured(&self.fitted.coefficients)).collect()
+    }
+
     /// Normal equations of coefficients and shapes together, for the residual; the samples are let go.
     pub(super) fn with_tangents(self, assembly: &Assembly, data: Data) -> Normal {
         let (k, d) = (self.fitted.coefficients.len(), self.fitted.unit.len());

@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::point::Point;
 use super::shaken::unsure;
+use super::strays::Strays;
 use crate::assembly::Assembly;
 use crate::effect::{Effect, Scene};
 
@@ -16,13 +17,17 @@ pub(super) struct Projection {
     pub(super) bias: DVector<f64>,
     /// Squares before the projection.
     pub(super) squares: Vec<f64>,
+    /// How far that noise scatters the products.
+    pub(super) strays: Strays,
 }
 
 impl Projection {
     /// Strength of a single column, less what the noise of the motions may give of it.
     pub(super) fn strength(&self, i: usize) -> f64 {
         let bias = self.bias[i];
-        (self.right[i] - bias * unsure(self.right[i] / bias)) / self.gram[(i, i)].sqrt()
+        let size = self.gram[(i, i)].sqrt();
+        let scatter = self.strays.of(&[i], &[1.0 / size]).covariance()[(0, 0)].sqrt();
+        (self.right[i] - bias * unsure(self.right[i] / bias)) / (size * scatter)
     }
 }
 

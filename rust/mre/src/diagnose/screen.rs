@@ -69,7 +69,7 @@ impl Null<'_> {
             }
             columns
         };
-        let Projection { gram, right, bias, squares } = self.project(width * starts.len(), of_law);
+        let Projection { gram, right, bias, squares, strays } = self.project(width * starts.len(), of_law);
         let samples: usize = self.point.recordings.iter().map(|l| l.force.len()).sum();
         let block = |s: usize| {
             let g = gram.view((s * width, s * width), (width, width)).into_owned();
@@ -90,7 +90,11 @@ impl Null<'_> {
             .collect();
         let visible = blocks.iter().map(|b| b.visible).fold(0.0, f64::max);
         let part = |v: &DVector<f64>, s: usize| v.rows(s * width, width).into_owned();
-        let gain = |s: usize| blocks[s].least_gain(&part(&right, s), &part(&bias, s));
+        let gain = |s: usize| {
+            let places: Vec<usize> = (s * width..(s + 1) * width).collect();
+            let scattered = blocks[s].scattered(&strays.of(&places, &vec![1.0; width]));
+            scattered.least_gain(&part(&right, s), &part(&bias, s))
+        };
         let gains: Vec<f64> = (0..starts.len()).map(gain).collect();
         let (best, gain) = gains.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
         let smallest = (0..starts.len()).map(|s| blocks[s].tail(gains[s] / CAUTION)).fold(1.0, f64::min);

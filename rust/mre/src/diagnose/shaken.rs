@@ -6,10 +6,11 @@
 //! once more (Cook and Stefanski 1994, <https://doi.org/10.1080/01621459.1994.10476871>).
 
 use nalgebra::DVector;
+use rayon::prelude::*;
 
 use super::least_squares::Data;
 use super::normal::whitened;
-use super::point::{Local, Point};
+use super::point::Point;
 use super::projection::View;
 use super::tangents::tangents_at;
 use crate::assembly::Assembly;
@@ -27,36 +28,64 @@ pub(super) fn unsure(wanted: f64) -> f64 {
     if wanted.is_nan() { 0.0 } else { wanted.clamp(0.0, MOST) }
 }
 
+/// Motions with noise on which columns are made; on others only forces are.
+const WITH_COLUMNS: usize = 2;
+
+/// What the force of a fitted model on motions with more noise differs by from that on the motions themselves, whitened, by
+/// recording.
+pub(super) type Change = Vec<Vec<f64>>;
+
+/// Squared standard deviations in all.
+pub(super) fn square(change: &Change) -> f64 {
+    change.iter().map(|c| dot(c, c)).sum()
+}
+
 /// A fitted model on motions with their noise added once more.
 pub(super) struct Shaken<'a> {
     assembly: Assembly<'a>,
     point: Point,
-    /// What its force differs by from the force on the motions themselves, whitened.
-    change: Vec<Vec<f64>>,
+    change: Change,
 }
 
 impl<'a> Shaken<'a> {
-    /// Some of them; none where the noise is too small to find anything.
-    pub(super) fn of(assembly: &Assembly<'a>, data: Data, point: &Point) -> Vec<Self> {
+    /// Some of them, and changes of the force on others; none where the noise is too small to find anything.
+    pub(super) fn of(assembly: &Assembly<'a>, data: Data, point: &Point) -> (Vec<Self>, Vec<Change>) {
         let fitted = &point.fitted;
-        if assembly.clips(&assembly.physical(&fitted.unit)) {
-            return Vec::new();
+        let campaigns = assembly.campaign().shaken();
+        if campaigns.is_empty() || assembly.clips(&assembly.physical(&fitted.unit)) {
+            return (Vec::new(), Vec::new());
         }
-        let there = assembly.campaign().shaken().iter().map(|campaign| {
+        let on = |campaign| {
             let assembly = assembly.on_motions(campaign, &fitted.unit, &fitted.coefficients);
-            let assembly = assembly.knowing(&assembly.physical(&fitted.unit));
-            let there = point.elsewhere(&assembly, data);
-            let change = |(r, (there, here)): (usize, (&Local, &Local))| {
-                let change: Vec<f64> = there.force.iter().zip(&here.force).map(|(a, b)| a - b).collect();
+            assembly.knowing(&assembly.physical(&fitted.unit))
+        };
+        let change = |there: &[Vec<f64>]| -> Change {
+            let each = there.iter().zip(&point.recordings).enumerate().map(|(r, (there, here))| {
+                let change: Vec<f64> = there.iter().zip(&here.force).map(|(a, b)| a - b).collect();
                 whitened(data.noise, r, &data.rows[r], &change)
-            };
-            let change = there.recordings.iter().zip(&point.recordings).enumerate().map(change).collect();
-            Self { assembly, point: there, change }
+            });
+            each.collect()
+        };
+        let (first, others) = campaigns.split_at(WITH_COLUMNS.min(campaigns.len()));
+        let shaken = first.iter().map(|campaign| {
+            let assembly = on(campaign);
+            let there = point.elsewhere(&assembly, data);
+            let forces: Vec<Vec<f64>> = there.recordings.iter().map(|local| local.force.clone()).collect();
+            Self { assembly, change: change(&forces), point: there }
         });
-        let all: Vec<Self> = there.collect();
-        let squares = |shaken: &Self| shaken.change.iter().map(|c| dot(c, c)).sum::<f64>();
-        let most = all.iter().map(squares).fold(0.0, f64::max);
-        if most > LEAST && most.is_finite() { all } else { Vec::new() }
+        let all: Vec<Self> = shaken.collect();
+        let most = all.iter().map(|shaken| square(&shaken.change)).fold(0.0, f64::max);
+        if most > LEAST && most.is_finite() {
+            let more = others.par_iter().map(|campaign| change(&point.force_elsewhere(&on(campaign))));
+            (all, more.collect())
+        } else {
+            (Vec::new(), Vec::new())
+        }
+    }
+
+    /// What the force differs by.
+    pub(super) fn change(&self) -> &Change {
+        &self.change
     }
 
     /// All tangents there; the point's own columns are taken for them.

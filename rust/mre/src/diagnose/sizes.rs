@@ -6,6 +6,7 @@ use super::gaps::LeftOut;
 use super::motion::{COLUMNS, functions_of_the_motion};
 use super::null::Null;
 use super::resolution::step_of;
+use super::shaken::Change;
 use crate::kernel::filter::dot;
 
 /// Samples over which sizes may be correlated.
@@ -57,7 +58,14 @@ impl Null<'_> {
         }
         let whole = |some: &[bool]| some.iter().all(|counts| *counts);
         let counts: Vec<bool> = counts.chunks_exact(together).map(whole).collect();
-        let squares: Vec<f64> = left.chunks_exact(together).map(size).collect();
+        let mut squares: Vec<f64> = left.chunks_exact(together).map(size).collect();
+        // Noise of the motion is larger where that is fast.
+        let draws: Vec<&Change> = self.changes().collect();
+        for change in &draws {
+            for (square, some) in squares.iter_mut().zip(change[r].chunks_exact(together)) {
+                *square -= size(some) / draws.len() as f64;
+            }
+        }
         let counted = counts.iter().filter(|c| **c).count() as f64;
         let mean = squares.iter().zip(&counts).filter(|(_, c)| **c).map(|(s, _)| s).sum::<f64>() / counted;
         let squares = centred(squares, &counts)?;

@@ -11,6 +11,7 @@ use super::missing::Projected;
 use super::motion::COLUMNS;
 use super::null::Null;
 use super::projection::Projection;
+use super::strays::Strays;
 
 /// Samples that are taken together: a mean of some keeps what is slow, and is as white.
 const TOGETHER: [usize; 3] = [1, 4, 16];
@@ -129,8 +130,8 @@ fn chance(covariance: &DMatrix<f64>, right: &DVector<f64>) -> f64 {
     let squares: Vec<f64> = (0..COLUMNS).map(|i| covariance[(i, i)]).collect();
     let chosen: Vec<usize> = (0..COLUMNS).collect();
     let bias = DVector::zeros(COLUMNS);
-    let (gram, right) = (covariance.clone(), right.clone());
-    Projected::of(&Projection { gram, right, bias, squares }, &chosen).mismatch().cautious()
+    let (gram, right, strays) = (covariance.clone(), right.clone(), Strays::none(COLUMNS));
+    Projected::of(&Projection { gram, right, bias, squares, strays }, &chosen).mismatch().cautious()
 }
 
 /// Square of the mean of whitened samples, of unit mean under white noise.
