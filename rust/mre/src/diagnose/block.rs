@@ -39,17 +39,24 @@ impl Block {
 
     /// The same where noise of the motions scatters the products further.
     pub(super) fn scattered(&self, strays: &Strays) -> Self {
-        let eigen = self.gram.clone().symmetric_eigen();
-        let smallest = 1e-12 * eigen.eigenvalues.max();
-        let kept: Vec<usize> =
-            (0..eigen.eigenvalues.len()).filter(|i| eigen.eigenvalues[*i] > smallest).collect();
-        let scaled = |power: f64| {
-            DMatrix::from_fn(self.gram.nrows(), kept.len(), |i, k| {
-                eigen.eigenvectors[(i, kept[k])] * eigen.eigenvalues[kept[k]].powf(power)
-            })
-        };
-        let root = scaled(0.5);
-        let gram = &root * strays.combined(&scaled(-0.5).transpose()).covariance() * root.transpose();
+        let size: Vec<f64> = (0..self.gram.nrows()).map(|i| self.gram[(i, i)].sqrt()).collect();
+        let kept: Vec<usize> = (0..size.len()).filter(|i| size[*i] > 0.0).collect();
+        let scale: Vec<f64> = kept.iter().map(|i| 1.0 / size[*i]).collect();
+        let scaled = DMatrix::from_fn(kept.len(), kept.len(), |a, b| {
+            self.gram[(kept[a], kept[b])] * scale[a] * scale[b] + if a == b { RIDGE } else { 0.0 }
+        });
+        let mut gram = self.gram.clone();
+        if let Some(root) = scaled.cholesky().map(|factor| factor.l())
+            && let Some(even) = root.clone().try_inverse()
+        {
+            let more = strays.of(&kept, &scale).combined(&even).beyond();
+            let more = &root * more * root.transpose();
+            for (a, i) in kept.iter().enumerate() {
+                for (b, j) in kept.iter().enumerate() {
+                    gram[(*i, *j)] += more[(a, b)] * size[*i] * size[*j];
+                }
+            }
+        }
         Self { gram, lower: self.lower.clone(), upper: self.upper.clone(), ..*self }
     }
 

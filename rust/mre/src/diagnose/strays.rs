@@ -37,15 +37,21 @@ impl Strays {
     }
 
     /// Covariance of products that have the identity's under even noise.
+    pub(super) fn covariance(&self) -> DMatrix<f64> {
+        let size = self.products.nrows();
+        DMatrix::identity(size, size) + self.beyond()
+    }
+
+    /// What it has beyond that.
     ///
     /// Of few draws it is drawn to a multiple of the identity (Ledoit and Wolf 2004,
     /// <https://doi.org/10.1016/S0047-259X(03)00096-4>); nothing scatters less than the even noise.
-    pub(super) fn covariance(&self) -> DMatrix<f64> {
+    pub(super) fn beyond(&self) -> DMatrix<f64> {
         let (size, draws) = (self.products.nrows(), self.products.ncols() as f64);
-        let even = DMatrix::identity(size, size);
         if self.products.is_empty() {
-            return even;
+            return DMatrix::zeros(size, size);
         }
+        let even = DMatrix::identity(size, size);
         let sample = &self.products * self.products.transpose() / draws;
         let mean = sample.trace() / size as f64;
         let apart = (&sample - &even * mean).norm_squared();
@@ -57,7 +63,7 @@ impl Strays {
         let beyond = sample * (1.0 - drawn) + &even * (drawn * mean - self.share);
         let eigen = beyond.symmetric_eigen();
         let kept = DMatrix::from_diagonal(&eigen.eigenvalues.map(|value| value.max(0.0)));
-        even + &eigen.eigenvectors * kept * eigen.eigenvectors.transpose()
+        &eigen.eigenvectors * kept * eigen.eigenvectors.transpose()
     }
 }
 
