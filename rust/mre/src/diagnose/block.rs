@@ -14,6 +14,7 @@ pub(super) const SMALLEST_SHARE: f64 = 1e-8;
 const RIDGE: f64 = 1e-9;
 
 /// The columns of one start of a law, projected.
+#[derive(Clone)]
 pub(super) struct Block {
     pub(super) gram: DMatrix<f64>,
     lower: Vec<f64>,
@@ -41,23 +42,28 @@ impl Block {
     pub(super) fn scattered(&self, strays: &Strays) -> Self {
         let size: Vec<f64> = (0..self.gram.nrows()).map(|i| self.gram[(i, i)].sqrt()).collect();
         let kept: Vec<usize> = (0..size.len()).filter(|i| size[*i] > 0.0).collect();
+        if kept.is_empty() {
+            return self.clone();
+        }
         let scale: Vec<f64> = kept.iter().map(|i| 1.0 / size[*i]).collect();
         let scaled = DMatrix::from_fn(kept.len(), kept.len(), |a, b| {
-            self.gram[(kept[a], kept[b])] * scale[a] * scale[b] + if a == b { RIDGE } else { 0.0 }
+            self.gram[(kept[a], kept[b])] * scale[a] * scale[b]
         });
+        let eigen = scaled.symmetric_eigen();
+        let along = |power: f64| {
+            let sizes = eigen.eigenvalues.map(|value| value.max(RIDGE).powf(power));
+            &eigen.eigenvectors * DMatrix::from_diagonal(&sizes)
+        };
+        let root = along(0.5);
+        let more = strays.of(&kept, &scale).combined(&along(-0.5).transpose()).beyond();
+        let more = &root * more * root.transpose();
         let mut gram = self.gram.clone();
-        if let Some(root) = scaled.cholesky().map(|factor| factor.l())
-            && let Some(even) = root.clone().try_inverse()
-        {
-            let more = strays.of(&kept, &scale).combined(&even).beyond();
-            let more = &root * more * root.transpose();
-            for (a, i) in kept.iter().enumerate() {
-                for (b, j) in kept.iter().enumerate() {
-                    gram[(*i, *j)] += more[(a, b)] * size[*i] * size[*j];
-                }
+        for (a, i) in kept.iter().enumerate() {
+            for (b, j) in kept.iter().enumerate() {
+                gram[(*i, *j)] += more[(a, b)] * size[*i] * size[*j];
             }
         }
-        Self { gram, lower: self.lower.clone(), upper: self.upper.clone(), ..*self }
+        Self { gram, ..self.clone() }
     }
 
     /// Squared standard deviations that the columns take off, with admissible coefficients.

@@ -30,6 +30,7 @@ pub(super) struct Null<'a> {
     bias: DVector<f64>,
     /// What more draws of it do to the force.
     more: Vec<Change>,
+    /// Products of the tangents with all of them, a draw in each column.
     strays: DMatrix<f64>,
 }
 

@@ -74,10 +74,11 @@ impl<'a> Shaken<'a> {
             Self { assembly, change: change(&forces), point: there }
         });
         let all: Vec<Self> = shaken.collect();
-        let most = all.iter().map(|shaken| square(&shaken.change)).fold(0.0, f64::max);
-        if most > LEAST && most.is_finite() {
+        let squares: Vec<f64> = all.iter().map(|shaken| square(&shaken.change)).collect();
+        if squares.iter().all(|square| square.is_finite()) && squares.iter().any(|square| *square > LEAST) {
             let more = others.par_iter().map(|campaign| change(&point.force_elsewhere(&on(campaign))));
-            (all, more.collect())
+            // A draw may be too coarse for a stiff device.
+            (all, more.filter(|change| square(change).is_finite()).collect())
         } else {
             (Vec::new(), Vec::new())
         }

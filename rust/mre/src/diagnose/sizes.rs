@@ -59,6 +59,8 @@ impl Null<'_> {
         let whole = |some: &[bool]| some.iter().all(|counts| *counts);
         let counts: Vec<bool> = counts.chunks_exact(together).map(whole).collect();
         let mut squares: Vec<f64> = left.chunks_exact(together).map(size).collect();
+        let counted = counts.iter().filter(|c| **c).count() as f64;
+        let mean = squares.iter().zip(&counts).filter(|(_, c)| **c).map(|(s, _)| s).sum::<f64>() / counted;
         // Noise of the motion is larger where that is fast.
         let draws: Vec<&Change> = self.changes().collect();
         for change in &draws {
@@ -66,8 +68,6 @@ impl Null<'_> {
                 *square -= size(some) / draws.len() as f64;
             }
         }
-        let counted = counts.iter().filter(|c| **c).count() as f64;
-        let mean = squares.iter().zip(&counts).filter(|(_, c)| **c).map(|(s, _)| s).sum::<f64>() / counted;
         let squares = centred(squares, &counts)?;
         let deviation = (dot(&squares, &squares) / counted).sqrt();
         if deviation.is_nan() || deviation <= 0.0 {

@@ -23,7 +23,7 @@ impl Smoothing {
             if long(part) {
                 Window::best(&time[part.clone()], &series[part.clone()], usize::MAX, terms)
             } else {
-                Window { half: ((part.len() - 1) / 2).max(1), terms: terms[0] }
+                Window { half: ((part.len() - 1) / 2).max(1), terms: 2 }
             }
         };
         let mut all = Self(cut(after, time.len()).map(|part| (part.clone(), window(&part))).collect());

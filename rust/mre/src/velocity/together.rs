@@ -72,7 +72,8 @@ impl Together {
         let middle = mean(displacement);
         let motion: Vec<f64> = displacement.iter().map(|x| x - middle).collect();
         // A line has the calmest slope, also at the ends.
-        let slow = || Window { half: SLOW.max(smoothing.half()).min((time.len() - 1) / 2), terms: 2 };
+        let slow =
+            || Window { half: smoothing.half().clamp(SLOW, WIDEST).min((time.len() - 1) / 2), terms: 2 };
         let wanders = size(&wander) >= WANDER.powi(2) * size(&motion);
         let slow = wanders.then(slow);
         let together = Self { noise, smoothing, slow };
