@@ -30,8 +30,8 @@ pub(super) struct Null<'a> {
     bias: DVector<f64>,
     /// What more draws of it do to the force.
     more: Vec<Change>,
-    /// Products of the tangents with all of them, a draw in each column.
-    strays: DMatrix<f64>,
+    /// Of the scaled tangents.
+    strays: Strays,
 }
 
 impl<'a> Null<'a> {
@@ -77,13 +77,17 @@ impl<'a> Null<'a> {
         let factor = scaled.cholesky()?;
         let draws = shaken.iter().map(Shaken::change).chain(&more);
         let mut strays = DMatrix::<f64>::zeros(count, draws.clone().count());
-        for (k, change) in draws.enumerate() {
+        for (k, change) in draws.clone().enumerate() {
             for (columns, change) in tangents.iter().zip(change) {
                 for (i, a) in columns {
-                    strays[(*i, k)] += dot(a, change);
+                    strays[(*i, k)] += dot(a, change) * scale[*i];
                 }
             }
         }
+        let samples: usize = point.recordings.iter().map(|local| local.residual.len()).sum();
+        let squares: f64 = draws.clone().map(square).sum();
+        let share = squares / (samples * draws.count()).max(1) as f64;
+        let strays = Strays::new(strays, share);
         Some(Self { assembly, data, point, tangents, factor, scale, right, shaken, bias, more, strays })
     }
 
@@ -182,15 +186,7 @@ impl<'a> Null<'a> {
         };
         let bias = bias - of_tangents(&self.bias);
         let right = right - of_tangents(&self.right);
-        let strays = if draws.is_empty() {
-            Strays::none(count)
-        } else {
-            let of_tangents =
-                DMatrix::from_fn(tangent_count, draws.len(), |j, k| self.strays[(j, k)] * self.scale[j]);
-            let samples: usize = self.point.recordings.iter().map(|local| local.residual.len()).sum();
-            let mean = draws.iter().map(|change| square(change)).sum::<f64>() / draws.len() as f64;
-            Strays::new(strays - &solved * of_tangents, mean / samples.max(1) as f64)
-        };
+        let strays = if draws.is_empty() { Strays::none(count) } else { self.strays.beside(&solved, strays) };
         Projection { gram: gram - &solved * &scaled, right, bias, squares, strays }
     }
 

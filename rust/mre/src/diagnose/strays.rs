@@ -23,6 +23,11 @@ impl Strays {
         Self { products, share }
     }
 
+    /// Of other columns with these products, projected off combinations of these columns, one for each row.
+    pub(super) fn beside(&self, combinations: &DMatrix<f64>, products: DMatrix<f64>) -> Self {
+        Self { products: products - combinations * &self.products, ..*self }
+    }
+
     /// Of some of the columns, each times a factor.
     pub(super) fn of(&self, chosen: &[usize], scale: &[f64]) -> Self {
         let products = DMatrix::from_fn(chosen.len(), self.products.ncols(), |a, k| {

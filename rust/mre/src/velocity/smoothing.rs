@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use super::cut;
 use super::local::NARROWEST;
+use super::together::squares;
 use super::window::Window;
 
 /// Median of the square of a normal variable of variance one.
@@ -57,8 +58,7 @@ impl Smoothing {
         // Less is met by a line.
         for (part, window) in self.0.iter().filter(|(part, _)| part.len() > 2) {
             let share = window.leverage();
-            let pairs = smooth[part.clone()].iter().zip(&series[part.clone()]);
-            let taken: f64 = pairs.map(|(a, b)| (a - b).powi(2)).sum();
+            let taken = squares(&smooth[part.clone()], &series[part.clone()]);
             let square = taken / (1.0 - share).max(f64::MIN_POSITIVE);
             noise += square;
             left += share * square;
