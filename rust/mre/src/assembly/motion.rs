@@ -6,7 +6,7 @@ use std::sync::Arc;
 use rand_chacha::ChaCha8Rng;
 
 use crate::recording::Recording;
-use crate::velocity::{self, Calm, Calming, Derived, Left, Parts, Smoothed, Together};
+use crate::velocity::{self, Calm, Derived, Left, Parts, Smoothed, Together};
 
 /// A derived velocity differs from the recorded one by as much as that has noise, up to this factor.
 const ALIKE: f64 = 1.2;
@@ -35,16 +35,7 @@ type Motion = (Vec<f64>, Vec<f64>, Doubts);
 pub(super) fn of_one_motion(recording: &Recording) -> (Arc<Recording>, Doubts) {
     let (time, x, v) = (recording.time(), recording.displacement(), recording.velocity());
     let (displacement, velocity, doubts) = if recording.velocity_window().is_some() {
-        let derived = velocity::from_displacement(time, x);
-        if derived.corners.is_empty() {
-            without_corners(time, x, &derived, derived.calming(time, x))
-        } else {
-            // Across a corner a longer window takes off motion.
-            let parts = Parts::of(time, x, &derived);
-            let Calm { displacement, velocity, noisy } = parts.calm(time, x, &derived);
-            let (left_out, left) = (derived.corners, some(Left::Between(parts)));
-            (displacement, velocity, Doubts { left_out, noisy, cornered: true, left })
-        }
+        of_derived(time, x, velocity::from_displacement(time, x))
     } else {
         let recorded = velocity::smoothed(time, x, v);
         better_derived([time, x, v], &recorded).unwrap_or_else(|| {
@@ -61,12 +52,21 @@ fn some(left: Left) -> Option<Left> {
     (!left.is_none()).then_some(left)
 }
 
-/// A motion whose velocity is derived and has no corners.
-fn without_corners(time: &[f64], x: &[f64], derived: &Derived, calming: Calming) -> Motion {
-    let Calm { displacement, velocity, noisy } = calming.over(time, x);
-    let ends = ends(time.len(), derived.half);
-    let left_out = velocity::joined(ends.into_iter().chain(derived.unresolved(time, x)).collect());
-    (displacement, velocity, Doubts { left_out, noisy, cornered: false, left: some(Left::Derived(calming)) })
+/// A motion whose velocity is derived.
+fn of_derived(time: &[f64], x: &[f64], derived: Derived) -> Motion {
+    if derived.corners.is_empty() {
+        let calming = derived.calming(time, x);
+        let Calm { displacement, velocity, noisy } = calming.over(time, x);
+        let ends = ends(time.len(), derived.half);
+        let left_out = velocity::joined(ends.into_iter().chain(derived.unresolved(time, x)).collect());
+        let left = some(Left::Derived(calming));
+        return (displacement, velocity, Doubts { left_out, noisy, cornered: false, left });
+    }
+    // Across a corner or a bend a longer window takes off motion.
+    let parts = Parts::of(time, x, &derived);
+    let Calm { displacement, velocity, noisy } = parts.calm(time, x, &derived);
+    let (left_out, left) = (derived.corners, some(Left::Between(parts)));
+    (displacement, velocity, Doubts { left_out, noisy, cornered: derived.sharp, left })
 }
 
 /// A motion whose velocity has less noise than the recorded one where it is derived from the displacement.
@@ -75,15 +75,15 @@ fn better_derived([time, x, v]: [&[f64]; 3], recorded: &Smoothed) -> Option<Moti
         return None;
     }
     let derived = velocity::from_displacement(time, x);
-    if !derived.corners.is_empty() {
+    if derived.sharp {
         return None;
     }
-    let calming = derived.calming(time, x);
+    let noise = derived.smoothing.variance(x, &derived.displacement).sqrt();
     // Otherwise the window, or the displacement, misses some of the motion.
     let squares: f64 = derived.velocity.iter().zip(v).map(|(a, b)| (a - b).powi(2)).sum();
     let alike = squares < (ALIKE * recorded.noise).powi(2) * time.len() as f64;
-    let calmer = derived.noise(time, calming.noise) < recorded.left;
-    (alike && calmer).then(|| without_corners(time, x, &derived, calming))
+    let calmer = derived.noise(time, noise) < recorded.left;
+    (alike && calmer).then(|| of_derived(time, x, derived))
 }
 
 /// A motion with what is left of as much noise as it had, drawn anew; `None` where none is known.

@@ -1,7 +1,10 @@
 //! Corners between two samples of a motion: slopes of the displacement jump there, and polynomials across one ring.
 
+use std::ops::Range;
+
 use super::corners::corners;
 use super::smoothing::Smoothing;
+use super::window::Window;
 use super::{Derived, END, PART_TERMS, joined};
 use crate::kernel::jumps::{ALONE, IN_TWO, STANDS_OUT, even, sharp, usual_change};
 
@@ -35,21 +38,27 @@ pub(super) fn between_breaks(time: &[f64], displacement: &[f64]) -> Option<Deriv
     if breaks.is_empty() {
         return None;
     }
-    let smoothing = Smoothing::between(&breaks, time, displacement, &PART_TERMS);
+    let derived = between(&breaks, time, displacement, &PART_TERMS);
+    // A corner that is rounded, or lost in noise.
+    let others = |(part, window): &(Range<usize>, Window)| {
+        let x = &displacement[part.clone()];
+        let own = Smoothing(vec![(0..part.len(), *window)]);
+        !corners(x, own.variance(x, &derived.displacement[part.clone()]), window.half).is_empty()
+    };
+    (!derived.smoothing.0.iter().any(others)).then_some(Derived { sharp: true, ..derived })
+}
+
+/// Velocity and displacement of a motion cut after these samples, each part on its own.
+pub(super) fn between(after: &[usize], time: &[f64], displacement: &[f64], terms: &[usize]) -> Derived {
+    let smoothing = Smoothing::between(after, time, displacement, terms);
     let (velocity, smooth) = smoothing.over(time, displacement);
     let mut doubted = Vec::new();
     for (part, window) in &smoothing.0 {
-        let x = &displacement[part.clone()];
-        let own = Smoothing(vec![(0..part.len(), *window)]);
-        // A corner that is rounded, or lost in noise.
-        if !corners(x, own.variance(x, &smooth[part.clone()]), window.half).is_empty() {
-            return None;
-        }
         let noisy = window.half.div_ceil(END).min(part.len());
         doubted.extend([part.start..part.start + noisy, part.end - noisy..part.end]);
     }
     let half = smoothing.half();
-    Some(Derived { velocity, displacement: smooth, half, corners: joined(doubted), smoothing })
+    Derived { velocity, displacement: smooth, half, corners: joined(doubted), sharp: false, smoothing }
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@
 //!
 //! Known limit: displacement noise that is itself smooth cannot be told from motion.
 
+mod bends;
 mod breaks;
 mod calming;
 mod corners;
@@ -27,7 +28,8 @@ mod window;
 use std::ops::Range;
 
 use crate::recording::even_step;
-use breaks::between_breaks;
+use bends::bends;
+use breaks::{between, between_breaks};
 pub use calming::{Calm, Calming};
 use corners::corners;
 pub(crate) use corners::joined;
@@ -66,9 +68,11 @@ pub struct Derived {
     pub displacement: Vec<f64>,
     /// Samples that its window has on either side.
     pub half: usize,
-    /// Samples that have a corner of the motion in their window, on an even grid: their velocity is not to be
+    /// Samples that have a corner or a bend of the motion in their window, on an even grid: their velocity is not to be
     /// trusted.
     pub corners: Vec<Range<usize>>,
+    /// True where some of them are corners: slopes jump there, and not accelerations alone.
+    pub sharp: bool,
     /// How both were derived.
     pub smoothing: Smoothing,
 }
@@ -86,15 +90,18 @@ impl Derived {
     }
 
     /// Standard deviation in mm/s of the noise of this velocity where that of the displacement has this one in mm, on an
-    /// even grid.
+    /// even grid and without corners.
     pub fn noise(&self, time: &[f64], displacement: f64) -> f64 {
-        let window = Window { half: self.half, terms: TERMS };
-        // No window at an end reaches the one sample.
-        let around = 4 * self.half + 3;
-        let even: Vec<f64> = (0..around).map(|i| i as f64 * step(time)).collect();
-        let mut one = vec![0.0; around];
-        one[2 * self.half + 1] = displacement;
-        window.over(&even, &one).0.iter().map(|v| v * v).sum::<f64>().sqrt()
+        let square = |(part, window): &(Range<usize>, Window)| {
+            // No window at an end reaches the one sample.
+            let around = 4 * window.half + 3;
+            let even: Vec<f64> = (0..around).map(|i| i as f64 * step(time)).collect();
+            let mut one = vec![0.0; around];
+            one[2 * window.half + 1] = displacement;
+            let slopes = window.over(&even, &one).0;
+            slopes.iter().map(|v| v * v).sum::<f64>() * part.len() as f64
+        };
+        (self.smoothing.0.iter().map(square).sum::<f64>() / time.len() as f64).sqrt()
     }
 
     /// Samples of a motion without corners, derived from this displacement in mm, where it turns within fewer samples than
@@ -131,9 +138,19 @@ pub fn from_displacement(time: &[f64], displacement: &[f64]) -> Derived {
     let smoothing = Smoothing(vec![(0..time.len(), window)]);
     let (velocity, smooth) = smoothing.over(time, displacement);
     let corners = Vec::new();
-    let mut derived = Derived { velocity, displacement: smooth, half: window.half, corners, smoothing };
+    let mut derived =
+        Derived { velocity, displacement: smooth, half: window.half, corners, sharp: false, smoothing };
     if even_step(time).is_ok() {
         between_corners(&mut derived, time, displacement, window);
+        if derived.corners.is_empty() {
+            let variance = derived.smoothing.variance(displacement, &derived.displacement);
+            let bends = bends(displacement, variance, window.half);
+            if !bends.is_empty() {
+                derived = between(&bends, time, displacement, &[TERMS]);
+                let unresolved = derived.unresolved(time, displacement);
+                derived.corners = joined(derived.corners.into_iter().chain(unresolved).collect());
+            }
+        }
     }
     derived
 }
@@ -158,6 +175,7 @@ fn between_corners(derived: &mut Derived, time: &[f64], displacement: &[f64], wh
     if corners.is_empty() || 2 * samples(&|own| own.calm() > CALMER * whole.calm()) < samples(&|_| true) {
         return;
     }
+    derived.sharp = true;
     derived.smoothing.0.extend(parts);
     (derived.velocity, derived.displacement) = derived.smoothing.over(time, displacement);
     let doubted = differences::missed(time, displacement, &derived.velocity, variance.sqrt(), SWUNG);
