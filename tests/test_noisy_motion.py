@@ -9,6 +9,9 @@ from test_sharp_corners import FINER, hysteretic
 
 Array = np.ndarray
 
+RINGING = 150.0
+"""Samples in a second of quick releases."""
+
 
 def trapezoid(t: Array, size: float, period: float, rise: float) -> Array:
     """Up in `rise`, a hold, down through zero, a hold, and up to zero again."""
@@ -80,4 +83,25 @@ def test_a_state_that_turned_in_noise_and_was_held_is_no_missing_physics(seed: i
         seen = x + 0.001 * rng.normal(size=t.size)
         recordings.append(Recording(t, seen, force + noise, name=f"holds {k}"))
     found = diagnose(recordings, base="bouc_wen", seed=1)
+    assert found.verdict == "adequate", found
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_what_smoothing_does_to_a_quick_release_is_no_missing_physics(seed: int) -> None:
+    """Held, let go, and ringing: the acceleration jumps, and no velocity is recorded."""
+    rng = np.random.default_rng([103, seed])
+    recordings = []
+    for k in range(3):
+        turn, decay = 2 * np.pi * rng.uniform(0.8, 1.6), rng.uniform(0.4, 0.8)
+        size, at = rng.uniform(3, 5), rng.uniform(2, 3)
+        t = np.arange(int(RINGING * (at + 6))) / RINGING
+        s = np.maximum(t - at, 0)
+        left = size * np.exp(-decay * s)
+        x = left * (np.cos(turn * s) + decay / turn * np.sin(turn * s))
+        v = -left * (turn + decay**2 / turn) * np.sin(turn * s)
+        noise = lfilter([1], [1, -0.9], rng.normal(size=t.size + 100))[100:]
+        force = 8 * x + 1.5 * v
+        seen = x + 6e-4 * size * rng.normal(size=t.size)
+        recordings.append(Recording(t, seen, force + 0.004 * np.std(force) * noise, name=f"release {k}"))
+    found = diagnose(recordings, base="kelvin_voigt", seed=1)
     assert found.verdict == "adequate", found

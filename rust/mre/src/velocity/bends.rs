@@ -135,7 +135,8 @@ mod tests {
         let time = time();
         let x: Vec<f64> = time.iter().map(|t| (integral(t + 0.03) - integral(t - 0.03)) / 0.06).collect();
         let derived = from_displacement(&time, &x);
-        for (i, t) in time.iter().enumerate() {
+        // The last corner is cut off.
+        for (i, t) in time.iter().enumerate().take(SAMPLES - 20) {
             let wanted = (triangle(t + 0.03) - triangle(t - 0.03)) / 0.06;
             let known = derived.corners.iter().any(|range| range.contains(&i));
             assert!(known || (derived.velocity[i] - wanted).abs() < 0.02, "{i}: {}", derived.velocity[i]);
