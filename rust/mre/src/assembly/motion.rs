@@ -14,7 +14,7 @@ const ALIKE: f64 = 1.2;
 /// In what a motion is not to be trusted.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Doubts {
-    /// Samples near a corner or an end, in rising order: the velocity is wrong or noisy there, and no fit counts them.
+    /// Samples near a corner, a bend or an end, in rising order: the velocity is wrong or noisy there, and no fit counts them.
     pub(crate) left_out: Vec<Range<usize>>,
     /// Parts of the displacement, mm, and of the velocity, mm/s, that are noise or may hold some. The force does not
     /// follow it, and an effect that attenuates what is fast would seem to explain that.
@@ -78,7 +78,7 @@ fn better_derived([time, x, v]: [&[f64]; 3], recorded: &Smoothed) -> Option<Moti
     if derived.sharp {
         return None;
     }
-    let noise = derived.smoothing.variance(x, &derived.displacement).sqrt();
+    let noise = derived.smoothing.noise(&derived.displacement, x).0;
     // Otherwise the window, or the displacement, misses some of the motion.
     let squares: f64 = derived.velocity.iter().zip(v).map(|(a, b)| (a - b).powi(2)).sum();
     let alike = squares < (ALIKE * recorded.noise).powi(2) * time.len() as f64;

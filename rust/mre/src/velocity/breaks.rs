@@ -48,7 +48,7 @@ pub(super) fn between_breaks(time: &[f64], displacement: &[f64]) -> Option<Deriv
     (!derived.smoothing.0.iter().any(others)).then_some(Derived { sharp: true, ..derived })
 }
 
-/// Velocity and displacement of a motion cut after these samples, each part on its own.
+/// Velocity and displacement of a motion that is cut after these samples, each part on its own.
 pub(super) fn between(after: &[usize], time: &[f64], displacement: &[f64], terms: &[usize]) -> Derived {
     let smoothing = Smoothing::between(after, time, displacement, terms);
     let (velocity, smooth) = smoothing.over(time, displacement);

@@ -14,7 +14,7 @@ use crate::kernel::intervals::way;
 pub(crate) enum Left {
     /// Of one whose velocity is derived.
     Derived(Calming),
-    /// The same between corners.
+    /// The same between corners and bends.
     Between(Parts),
     /// Of one whose velocity was recorded, with the standard deviation of the noise of that, mm/s.
     Recorded(Way, f64, Together),

@@ -28,7 +28,7 @@ mod window;
 use std::ops::Range;
 
 use crate::recording::even_step;
-use bends::bends;
+use bends::{Bends, bends};
 use breaks::{between, between_breaks};
 pub use calming::{Calm, Calming};
 use corners::corners;
@@ -38,6 +38,7 @@ use local::{NARROWEST, TERMS};
 pub(crate) use parts::Parts;
 pub(crate) use recorded::{Smoothed, smoothed};
 pub use smoothing::Smoothing;
+use stencil::grid;
 pub(crate) use together::Together;
 use window::Window;
 
@@ -104,7 +105,7 @@ impl Derived {
         (self.smoothing.0.iter().map(square).sum::<f64>() / time.len() as f64).sqrt()
     }
 
-    /// Samples of a motion without corners, derived from this displacement in mm, where it turns within fewer samples than
+    /// Samples of a motion, derived from this displacement in mm, where it turns within fewer samples than
     /// give a slope: about them polynomials and differences give another.
     pub fn unresolved(&self, time: &[f64], displacement: &[f64]) -> Vec<Range<usize>> {
         let noise = self.smoothing.variance(displacement, &self.displacement).sqrt();
@@ -142,11 +143,11 @@ pub fn from_displacement(time: &[f64], displacement: &[f64]) -> Derived {
         Derived { velocity, displacement: smooth, half: window.half, corners, sharp: false, smoothing };
     if even_step(time).is_ok() {
         between_corners(&mut derived, time, displacement, window);
-        if derived.corners.is_empty() {
+        if derived.corners.is_empty() && grid(time).is_some() {
             let variance = derived.smoothing.variance(displacement, &derived.displacement);
-            let bends = bends(displacement, variance, window.half);
-            if !bends.is_empty() {
-                derived = between(&bends, time, displacement, &[TERMS]);
+            let Bends { after, sharp } = bends(displacement, variance, window.half);
+            if !after.is_empty() {
+                derived = Derived { sharp, ..between(&after, time, displacement, &[TERMS]) };
                 let unresolved = derived.unresolved(time, displacement);
                 derived.corners = joined(derived.corners.into_iter().chain(unresolved).collect());
             }

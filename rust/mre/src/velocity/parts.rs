@@ -1,4 +1,4 @@
-//! A derived motion with corners, calmed between them.
+//! A derived motion with corners or bends, calmed between them.
 
 use std::ops::Range;
 
@@ -6,6 +6,9 @@ use super::Derived;
 use super::calming::{Calm, Calming};
 use super::local::NARROWEST;
 use super::smoothing::Smoothing;
+
+/// A recording has so many long parts at most.
+const LONG: usize = 4;
 
 /// How noise is taken off a motion with corners: the same way off everything that is added to it.
 #[derive(Debug, Clone)]
@@ -54,12 +57,20 @@ impl Parts {
 
     /// The same where the slopes and values of its polynomials are known.
     fn calmed(&self, time: &[f64], displacement: &[f64], (velocity, smooth): (Vec<f64>, Vec<f64>)) -> Calm {
-        // Columns of what was taken off short parts would take off much of a force.
         let mut all = Calm { displacement: smooth, velocity, noisy: Vec::new() };
         for (part, calming) in &self.calm {
             let own = calming.over(&time[part.clone()], &displacement[part.clone()]);
             all.displacement[part.clone()].copy_from_slice(&own.displacement);
             all.velocity[part.clone()].copy_from_slice(&own.velocity);
+            // Columns of what was taken off short parts would take off much of a force.
+            if LONG * part.len() < time.len() {
+                continue;
+            }
+            let nothing = || [0, 1].map(|_| vec![0.0; time.len()]);
+            all.noisy.resize_with(all.noisy.len().max(own.noisy.len()), nothing);
+            for (whole, noisy) in all.noisy.iter_mut().flatten().zip(own.noisy.iter().flatten()) {
+                whole[part.clone()].copy_from_slice(noisy);
+            }
         }
         all
     }

@@ -53,7 +53,7 @@ impl Smoothing {
     }
 
     /// Standard deviations of the noise of a series, and of what smoothing leaves of it, from what it takes off.
-    pub(super) fn noise(&self, series: &[f64], smooth: &[f64]) -> (f64, f64) {
+    pub(crate) fn noise(&self, series: &[f64], smooth: &[f64]) -> (f64, f64) {
         let (mut noise, mut left, mut count) = (0.0, 0.0, 0);
         // Less is met by a line.
         for (part, window) in self.0.iter().filter(|(part, _)| part.len() > 2) {
