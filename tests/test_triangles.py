@@ -125,7 +125,8 @@ def test_of_a_smooth_motion_only_the_ends_are_left_out() -> None:
 def test_what_is_not_scored_is_not_left_out_as_well() -> None:
     t = np.arange(3000) / 200
     rng = np.random.default_rng(4)
-    x = 5 * np.minimum(t / 3, 1) * np.sin(2 * np.pi * t)
+    # It ends smoothly: nothing is left out there.
+    x = 5 * np.sin(np.pi * np.minimum(t / 6, 0.5)) ** 2 * np.sin(2 * np.pi * t)
     force = 3 * x + 0.2 * np.gradient(x, t) + 0.1 * rng.normal(size=t.size)
     whole = Recording(t, x + 0.005 * rng.normal(size=t.size), force, name="ramp")
     without_start = whole.exclude("start_transient")

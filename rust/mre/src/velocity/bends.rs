@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
+use super::cuts::worth;
 use super::local::{NARROWEST, TERMS, chebyshev};
 
 /// Half windows over which a bend is looked for: over more it stands out of the noise further, and a motion needs more terms.
@@ -33,7 +34,7 @@ pub(super) struct Bends {
 
 /// The bends of a displacement in mm, on an even grid and with noise of this `variance` in mm² that is told over `half` samples
 /// on either side.
-pub(super) fn bends(displacement: &[f64], variance: f64, half: usize) -> Bends {
+pub(super) fn bends(time: &[f64], displacement: &[f64], variance: f64, half: usize) -> Bends {
     let reach = ((REACH * half as f64).ceil() as usize).max(MORE_TERMS);
     if variance <= 0.0 || displacement.len() <= 2 * reach + 1 {
         return Bends::default();
@@ -50,7 +51,8 @@ pub(super) fn bends(displacement: &[f64], variance: f64, half: usize) -> Bends {
         long
     };
     found.retain(long_enough);
-    Bends { sharp: found.iter().any(|(_, sharp)| *sharp), after: found.into_iter().map(|(i, _)| i).collect() }
+    let after = worth(found.iter().map(|(i, _)| *i).collect(), [time, displacement], variance);
+    Bends { sharp: found.iter().any(|(i, sharp)| *sharp && after.contains(i)), after }
 }
 
 /// What is looked at around every sample, as far as `reach`.

@@ -12,6 +12,7 @@ mod bends;
 mod breaks;
 mod calming;
 mod corners;
+mod cuts;
 mod differences;
 mod left;
 mod local;
@@ -145,7 +146,7 @@ pub fn from_displacement(time: &[f64], displacement: &[f64]) -> Derived {
         between_corners(&mut derived, time, displacement, window);
         if derived.corners.is_empty() && grid(time).is_some() {
             let variance = derived.smoothing.variance(displacement, &derived.displacement);
-            let Bends { after, sharp } = bends(displacement, variance, window.half);
+            let Bends { after, sharp } = bends(time, displacement, variance, window.half);
             if !after.is_empty() {
                 derived = Derived { sharp, ..between(&after, time, displacement, &[TERMS]) };
                 let unresolved = derived.unresolved(time, displacement);

@@ -66,6 +66,12 @@ impl Window {
         best.1
     }
 
+    /// Squares that it leaves of a displacement whose noise has a variance, and twice those that it follows.
+    pub(super) fn cost(self, variance: f64, time: &[f64], displacement: &[f64]) -> f64 {
+        let Error { square, leverage } = self.error(time, displacement, 1);
+        time.len() as f64 * (square + 2.0 * variance * leverage)
+    }
+
     /// So many times twice as wide.
     pub(super) fn wider(self, octaves: usize) -> Self {
         Self { half: self.half << octaves, ..self }
