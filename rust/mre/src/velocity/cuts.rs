@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::cut;
-use super::local::{NARROWEST, TERMS};
+use super::local::TERMS;
 use super::window::Window;
 
 /// Squares that a cut wins, over the variance of the noise, at least. Where an acceleration jumps, slopes win as much as they
@@ -12,42 +12,38 @@ const WON: f64 = 60.0;
 
 /// Those after which a displacement in mm is worth being cut, in rising order; its noise has this `variance` in mm².
 pub(super) fn worth(mut after: Vec<usize>, [time, displacement]: [&[f64]; 2], variance: f64) -> Vec<usize> {
-    let cost = |part: Range<usize>| cost([&time[part.clone()], &displacement[part]], variance);
-    let mut parts: Vec<(Range<usize>, f64)> =
-        cut(&after, time.len()).map(|part| (part.clone(), cost(part))).collect();
-    let merged = |a: &(Range<usize>, f64), b: &(Range<usize>, f64)| {
-        let both = a.0.start..b.0.end;
-        (both.clone(), cost(both))
+    let part = |range: Range<usize>| {
+        let cost = cost([&time[range.clone()], &displacement[range.clone()]], variance);
+        Part { range, cost }
     };
-    let mut whole: Vec<(Range<usize>, f64)> =
-        parts.windows(2).map(|pair| merged(&pair[0], &pair[1])).collect();
+    let joined = |pair: &[Part]| part(pair[0].range.start..pair[1].range.end);
+    let mut parts: Vec<Part> = cut(&after, time.len()).map(part).collect();
+    let mut joint: Vec<Part> = parts.windows(2).map(joined).collect();
     loop {
-        let won = (0..after.len()).map(|k| (k, whole[k].1 - parts[k].1 - parts[k + 1].1));
-        match won.min_by(|a, b| a.1.total_cmp(&b.1)) {
-            Some((k, won)) if won < WON * variance => {
-                after.remove(k);
-                parts.remove(k + 1);
-                parts[k] = whole.remove(k);
-                if k > 0 {
-                    whole[k - 1] = merged(&parts[k - 1], &parts[k]);
-                }
-                if k < whole.len() {
-                    whole[k] = merged(&parts[k], &parts[k + 1]);
-                }
-            }
-            _ => return after,
+        let won = (0..after.len()).map(|k| (k, joint[k].cost - parts[k].cost - parts[k + 1].cost));
+        let Some((k, _)) = won.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, won)| *won < WON * variance)
+        else {
+            return after;
+        };
+        after.remove(k);
+        parts.remove(k + 1);
+        parts[k] = joint.remove(k);
+        for beside in k.saturating_sub(1)..(k + 1).min(joint.len()) {
+            joint[beside] = joined(&parts[beside..beside + 2]);
         }
     }
 }
 
-/// Squares that the best window leaves of a part, and what it follows of the noise (Mallows 1973).
+/// Of a motion.
+struct Part {
+    range: Range<usize>,
+    cost: f64,
+}
+
+/// Squares that the best window leaves of a part, and twice what it follows of the noise (Mallows 1973).
 fn cost([time, displacement]: [&[f64]; 2], variance: f64) -> f64 {
-    let window = if time.len() > 2 * NARROWEST {
-        Window::knowing(variance, time, displacement, &[TERMS])
-    } else {
-        Window { half: ((time.len() - 1) / 2).max(1), terms: 2 }
-    };
-    window.cost(variance, time, displacement)
+    let chosen = || Window::knowing(variance, time, displacement, &[TERMS]);
+    Window::of_few(time.len()).unwrap_or_else(chosen).cost(variance, time, displacement)
 }
 
 #[cfg(test)]

@@ -5,7 +5,6 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::cut;
-use super::local::NARROWEST;
 use super::together::squares;
 use super::window::Window;
 
@@ -19,18 +18,14 @@ pub struct Smoothing(pub(super) Vec<(Range<usize>, Window)>);
 impl Smoothing {
     /// Of parts that end after some samples; `terms` of the polynomials are tried in the longer ones.
     pub(super) fn between(after: &[usize], time: &[f64], series: &[f64], terms: &[usize]) -> Self {
-        let long = |part: &Range<usize>| part.len() > 2 * NARROWEST;
         let window = |part: &Range<usize>| {
-            if long(part) {
-                Window::best(&time[part.clone()], &series[part.clone()], usize::MAX, terms)
-            } else {
-                Window { half: ((part.len() - 1) / 2).max(1), terms: 2 }
-            }
+            let chosen = || Window::best(&time[part.clone()], &series[part.clone()], usize::MAX, terms);
+            Window::of_few(part.len()).unwrap_or_else(chosen)
         };
         let mut all = Self(cut(after, time.len()).map(|part| (part.clone(), window(&part))).collect());
         // Of all parts the noise is more certain than of each.
         let variance = all.variance(series, &all.over(time, series).1);
-        for (part, window) in all.0.iter_mut().filter(|(part, _)| long(part)) {
+        for (part, window) in all.0.iter_mut().filter(|(part, _)| Window::of_few(part.len()).is_none()) {
             *window = Window::knowing(variance, &time[part.clone()], &series[part.clone()], terms);
         }
         all

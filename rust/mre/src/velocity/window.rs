@@ -38,6 +38,12 @@ impl Window {
         })
     }
 
+    /// A line over all of a part of so many samples, where that is too short to choose another.
+    pub(super) fn of_few(samples: usize) -> Option<Self> {
+        let line = Self { half: ((samples - 1) / 2).max(1), terms: 2 };
+        (samples <= 2 * NARROWEST).then_some(line)
+    }
+
     fn with_least(
         [time, displacement]: [&[f64]; 2],
         widest: usize,
