@@ -67,6 +67,11 @@ impl Model {
             .collect()
     }
 
+    /// Bounds of shape parameters that a device may have outside their default boxes.
+    pub(crate) fn far(&self, extent: &Extent) -> Vec<(String, f64, f64)> {
+        self.terms.iter().flat_map(|term| term.far(extent)).collect()
+    }
+
     /// Add the force in N of these parameters to `out`, times a weight for every sample if given.
     ///
     /// `column` is scratch space. Lengths: `parameters` as [`Model::parameters`], the others as the

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::kept::Kept;
 use crate::error::Result;
+use crate::extent::Extent;
 use crate::fitness::{Problem, Weights};
 use crate::model::Model;
 use crate::physics::Part;
@@ -14,7 +15,7 @@ use crate::recording::Recording;
 pub struct Group {
     /// Their places in the campaign.
     pub members: Vec<usize>,
-    /// Model, law and default box.
+    /// Model, law and box.
     pub problem: Problem,
     /// Places of the coefficients among the problem's parameters.
     pub coefficients: Vec<usize>,
@@ -40,8 +41,10 @@ impl Base {
     /// As [`Problem::new`].
     pub fn fitted(recordings: &[Arc<Recording>], model: &str, groups: &[Vec<usize>]) -> Result<Self> {
         let groups = groups.iter().map(|members| {
-            let own = members.iter().map(|i| recordings[*i].clone()).collect();
-            let problem = Problem::new(own, Model::named(model)?, &[], &Weights::Samples)?;
+            let own: Vec<Arc<Recording>> = members.iter().map(|i| recordings[*i].clone()).collect();
+            let model = Model::named(model)?;
+            let far = model.far(&Extent::of(&own)?);
+            let problem = Problem::new(own, model, &far, &Weights::Samples)?;
             let is_shape = problem.law().shapes(problem.model());
             let places = |wanted: bool| (0..is_shape.len()).filter(|i| is_shape[*i] == wanted).collect();
             Ok(Group { members: members.clone(), coefficients: places(false), shapes: places(true), problem })

@@ -48,6 +48,13 @@ pub trait Term: Send + Sync {
         Vec::new()
     }
 
+    /// Bounds by name, lower and upper, of shape parameters that a device may have outside their default box, in which swarms
+    /// search.
+    fn far(&self, extent: &Extent) -> Vec<(String, f64, f64)> {
+        let _ = extent;
+        Vec::new()
+    }
+
     /// True where the coefficient follows the coil current in the default law.
     fn follows_current(&self) -> bool {
         true

@@ -17,6 +17,9 @@ use crate::recording::Recording;
 /// Largest `|beta x|`: beyond, sinh overflows.
 pub const LARGEST: f64 = 700.0;
 
+/// Largest `|beta x|` of a device: at the largest displacement its tangent is 200 times that in the middle.
+const STEEPEST: f64 = 6.0;
+
 /// Hyperbolic-sine spring.
 #[derive(Debug, Clone, Copy)]
 pub struct Sinh;
@@ -46,6 +49,13 @@ impl Term for Sinh {
             scale: Scale::Linear,
             ideal: Ideal::default(),
         }]
+    }
+
+    fn far(&self, extent: &Extent) -> Vec<(String, f64, f64)> {
+        self.shape(extent)
+            .into_iter()
+            .map(|beta| (beta.name, beta.lower, STEEPEST / extent.displacement))
+            .collect()
     }
 
     fn column(&self, recording: &Recording, shape: &[f64], out: &mut [f64]) {
