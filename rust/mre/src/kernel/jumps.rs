@@ -40,24 +40,24 @@ pub(crate) fn jumps(time: &[f64], displacement: &[f64], velocity: &[f64]) -> Vec
         let share = (velocity[i + 1] - way / step) / (velocity[i + 1] - velocity[i]);
         (share > -OFF && share < 1.0 + OFF).then_some((i, share.clamp(0.0, 1.0)))
     };
-    let (mut found, mut far): (Vec<(usize, f64)>, f64) = (Vec::new(), f64::INFINITY);
+    // A motion that changes as quickly elsewhere is sampled too coarsely, and has no corners.
+    let least = STANDS_OUT * usual_change(velocity);
+    let mut found: Vec<(usize, f64)> = Vec::new();
     for i in 0..velocity.len() {
         let wide = [ALONE, IN_TWO]
             .into_iter()
             .find(|wide| sharp(velocity, largest, i, *wide) && even(time, i, *wide));
-        let Some((wide, _)) = wide else { continue };
+        let Some((wide, _)) = wide.filter(|(wide, _)| (velocity[i + wide] - velocity[i]).abs() > least)
+        else {
+            continue;
+        };
         let places: Option<Vec<(usize, f64)>> = (i..i + wide).map(corner).collect();
         // Where two corners would share an interval it is neither's.
         if let Some(places) = places
             && found.last().is_none_or(|(last, _)| *last < i)
         {
-            far = far.min((velocity[i + wide] - velocity[i]).abs());
             found.extend(places);
         }
-    }
-    // A motion that changes as quickly elsewhere is sampled too coarsely, and has no corners.
-    if !found.is_empty() && far <= STANDS_OUT * usual_change(velocity) {
-        found.clear();
     }
     found
 }

@@ -63,15 +63,19 @@ pub(crate) fn smoothed(time: &[f64], displacement: &[f64], velocity: &[f64]) -> 
         _ => Way::Parts(smoothing),
     };
     let found = way.over(time, velocity);
-    let mut taken: Vec<f64> = found.iter().zip(velocity).map(|(a, b)| (a - b).powi(2)).collect();
-    let average = mean(&taken);
-    let middle = taken.len() / 2;
-    let (_, median, _) = taken.select_nth_unstable_by(middle, f64::total_cmp);
-    if apart(&found, velocity) && *median > EVERYWHERE * average {
+    if apart(&found, velocity) && everywhere(&found, velocity) {
         Smoothed { velocity: found, noise, left, jumps, way }
     } else {
         Smoothed { velocity: velocity.to_vec(), noise: 0.0, left: 0.0, jumps, way }
     }
+}
+
+/// True where what was taken off a series is taken off everywhere, as noise is.
+pub(super) fn everywhere(found: &[f64], series: &[f64]) -> bool {
+    let mut taken: Vec<f64> = found.iter().zip(series).map(|(a, b)| (a - b).powi(2)).collect();
+    let average = mean(&taken);
+    let middle = taken.len() / 2;
+    *taken.select_nth_unstable_by(middle, f64::total_cmp).1 > EVERYWHERE * average
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use super::PART_TERMS;
 use super::local::TERMS;
-use super::recorded::Smoothed;
+use super::recorded::{Smoothed, everywhere};
 use super::smoothing::Smoothing;
 use super::window::Window;
 use crate::kernel::filter::dot;
@@ -62,7 +62,8 @@ impl Together {
         let kept = smoothing.over(time, &beside).1;
         let found: Vec<f64> = kept.iter().zip(&path).map(|(d, s)| d + s).collect();
         // The path has an error as well.
-        let noise = if apart(&found, displacement) || faint(&less(displacement, &found), displacement) {
+        let some = apart(&found, displacement) || faint(&less(displacement, &found), displacement);
+        let noise = if some && everywhere(&found, displacement) {
             smoothing.noise(&found, displacement).0
         } else {
             0.0
