@@ -148,3 +148,22 @@ def test_noisy_ends_are_no_missing_physics(seed: int) -> None:
         recordings.append(Recording(t, x + 0.01 * rng.normal(size=t.size), force, name=str(i)))
     found = diagnose(recordings, base="kelvin_voigt", seed=1)
     assert found.verdict == "adequate", found
+
+
+def test_a_sine_that_starts_at_once_and_changes_its_frequency_lacks_nothing() -> None:
+    """Displacement and velocity are recorded without noise, and the velocity jumps by more and by less."""
+    rng = np.random.default_rng(109)
+    t = np.arange(4000) / 60
+    places, rates = np.array([2.08, 22.9, 43.7]), np.array([0.3, 0.5, 0.7])
+    stage = np.searchsorted(places, t) - 1
+    turns = rates[stage] * (t - places[stage])
+    moving = stage >= 0
+    x = np.where(moving, 2.7 * np.sin(2 * np.pi * turns), 0)
+    # A sine of whole cycles ends where the next begins.
+    for k, (start, end) in enumerate(zip(places, [*places[1:], np.inf], strict=True)):
+        whole = np.floor((end - start) * rates[k]) / rates[k] if np.isfinite(end) else np.inf
+        x[(t >= start + whole) & (t < end)] = 0
+    v = np.where(x != 0, 2.7 * 2 * np.pi * rates[stage] * np.cos(2 * np.pi * turns), 0)
+    force = 4.1 * x + 0.05 * np.sinh(1.6 * x) + 0.02 * v + 0.01 * rng.normal(size=t.size)
+    found = diagnose(Recording(t, x, force, velocity=v, name="steps"), base="sinh", seed=1)
+    assert found.verdict == "adequate", found

@@ -114,4 +114,19 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn a_jump_is_none_less_for_a_smaller_one() {
+        // From rest a sine that goes over into a quicker one where it is at rest in the middle.
+        let turn = std::f64::consts::TAU;
+        let (start, change) = (0.507, 10.507);
+        let phase = |t: f64| turn * if t < change { 0.3 * (t - start) } else { 0.35 * (t - change) };
+        let rate = |t: f64| turn * if t < change { 0.3 } else { 0.35 };
+        let time: Vec<f64> = (0..1200).map(|i| f64::from(i) / 60.0).collect();
+        let x: Vec<f64> = time.iter().map(|t| if *t < start { 0.0 } else { phase(*t).sin() }).collect();
+        let v: Vec<f64> =
+            time.iter().map(|t| if *t < start { 0.0 } else { rate(*t) * phase(*t).cos() }).collect();
+        let found = jumps(&time, &x, &v);
+        assert_eq!(found.iter().map(|(i, _)| *i).collect::<Vec<_>>(), [30], "{found:?}");
+    }
 }
