@@ -76,7 +76,7 @@ impl Campaign {
         Self { doubts, ..self }
     }
 
-    /// Samples near a corner or an end of a motion whose velocity is derived, by recording: it is wrong or
+    /// Samples near a corner, a bend or an end of a motion whose velocity is derived, by recording: it is wrong or
     /// noisy there, and no fit counts them.
     pub fn left_out(&self) -> impl Iterator<Item = &[Range<usize>]> {
         self.doubts.iter().map(|doubts| doubts.left_out.as_slice())
