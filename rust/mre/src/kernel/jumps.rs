@@ -3,6 +3,8 @@
 //! A cubic through such samples swings an eighth of the jump beyond them on both sides, and a hysteretic variable would
 //! turn after another path: with 200 samples a cycle by half a hundredth of the amplitude.
 
+use std::cell::LazyCell;
+
 /// Intervals that a jump takes, and how many times what changes in the intervals before and after it is at least: one, or
 /// two, in which a corner is rounded.
 pub(crate) const ALONE: (usize, f64) = (1, 4.0);
@@ -41,13 +43,13 @@ pub(crate) fn jumps(time: &[f64], displacement: &[f64], velocity: &[f64]) -> Vec
         (share > -OFF && share < 1.0 + OFF).then_some((i, share.clamp(0.0, 1.0)))
     };
     // A motion that changes as quickly elsewhere is sampled too coarsely, and has no corners.
-    let least = STANDS_OUT * usual_change(velocity);
+    let least = LazyCell::new(|| STANDS_OUT * usual_change(velocity));
     let mut found: Vec<(usize, f64)> = Vec::new();
     for i in 0..velocity.len() {
         let wide = [ALONE, IN_TWO]
             .into_iter()
             .find(|wide| sharp(velocity, largest, i, *wide) && even(time, i, *wide));
-        let Some((wide, _)) = wide.filter(|(wide, _)| (velocity[i + wide] - velocity[i]).abs() > least)
+        let Some((wide, _)) = wide.filter(|(wide, _)| (velocity[i + wide] - velocity[i]).abs() > *least)
         else {
             continue;
         };
