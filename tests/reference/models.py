@@ -100,12 +100,31 @@ class Piece(NamedTuple):
 def pieces(motion: Motion) -> list[Piece]:
     """Between two samples the velocity is a parabola; where it turns, one piece ends and another begins.
 
-    Where it jumps, one constant velocity follows another.
+    Where it jumps, one constant velocity follows another. Where the parabola leaves the displacement, and
+    another with the same ends meets it, that one; or two constants where it would turn back.
     """
     found = []
     corners = jumps(motion)
-    for i, half in enumerate(halfway(motion)):
+    halves = halfway(motion)
+    strays = []
+    for i, half in enumerate(halves):
         v0, v1 = float(motion.velocity[i]), float(motion.velocity[i + 1])
+        area = float(motion.time[i + 1] - motion.time[i]) * (v0 + 4.0 * half + v1) / 6.0
+        strays.append(float(motion.displacement[i + 1] - motion.displacement[i]) - area)
+    sizes = np.sort([abs(stray) for stray in strays if stray])
+    much = 5.0 / 0.6745 * float(sizes[len(sizes) // 2]) if len(sizes) else 0.0
+    for i, half in enumerate(halves):
+        v0, v1 = float(motion.velocity[i]), float(motion.velocity[i + 1])
+        if i not in corners and abs(strays[i]) > much:
+            dt = float(motion.time[i + 1] - motion.time[i])
+            mean = float(motion.displacement[i + 1] - motion.displacement[i]) / dt
+            wide = 0.25 * max(abs(v0), abs(v1))
+            if min(v0, v1) - wide <= mean <= max(v0, v1) + wide:
+                half = 1.5 * mean - 0.25 * (v0 + v1)
+                lowest = 0.25 * (math.sqrt(abs(v0)) - math.sqrt(abs(v1))) ** 2
+                share = (v1 - mean) / (v1 - v0) if v1 != v0 else math.inf
+                if v0 * v1 >= 0.0 and math.copysign(half, half * (v0 + v1)) < lowest and 0.0 <= share <= 1.0:
+                    corners[i] = share
         if i in corners:
             dt = float(motion.time[i + 1] - motion.time[i])
             found.append(Piece(i, lambda _, v=v0: v, dt * corners[i]))  # type: ignore[misc]
@@ -139,7 +158,7 @@ def substeps(rho: float, sigma: float, n: float, motion: Motion) -> list[int]:
     stiffness = 2.0 ** math.ceil(math.log2(rate)) if 0.0 < rate < 1e300 else rate
     counts = []
     for piece in pieces(motion):
-        fastest = max(abs(piece.velocity(0.0)), abs(piece.velocity(1.0)))
+        fastest = max(abs(piece.velocity(share)) for share in (0.0, 0.5, 1.0))
         counts.append(max(1, math.ceil(stiffness * fastest * piece.duration / 0.5)))
     return counts
 
@@ -168,16 +187,14 @@ def jumps(motion: Motion) -> dict[int, float]:
         steps = np.diff(t[max(0, i - 2) : min(len(t), i + wide + 3)])
         return bool(np.all(abs(steps - (t[i + 1] - t[i])) < 0.01 * (t[i + 1] - t[i])))
 
-    far = math.inf
+    least = 12.0 * float(np.sort(np.abs(change))[len(change) // 2])
     for i in range(1, len(change)):
         wide = next((w for w, times in ((1, 4.0), (2, 8.0)) if sharp(i, w, times) and even(i, w)), 0)
         places = [corner(k) for k in range(i, i + wide)]
-        if wide and all(places) and max(found, default=-1) < i:
-            far = min(far, float(abs(v[i + wide] - v[i])))
+        stands_out = float(abs(v[i + wide] - v[i])) > least
+        if wide and stands_out and all(places) and max(found, default=-1) < i:
             for place in places:
                 found |= place
-    if found and far <= 12.0 * float(np.sort(np.abs(change))[len(change) // 2]):
-        return {}
     return found
 
 

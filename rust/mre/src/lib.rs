@@ -45,6 +45,7 @@ pub mod model;
 pub mod parameter;
 pub mod physics;
 pub mod recording;
+mod spread;
 pub mod swarm;
 pub mod transient;
 pub mod uncertainty;

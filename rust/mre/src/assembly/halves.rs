@@ -1,7 +1,7 @@
 //! A motion halfway between its samples: where a hysteretic device turns, a spline through the samples of its force
 //! swings, by more than a filter faster than their spacing does to it.
 
-use crate::kernel::intervals::middles;
+use crate::kernel::halfway::middles;
 use crate::kernel::jumps::jumps;
 use crate::recording::{Condition, Recording, Series};
 

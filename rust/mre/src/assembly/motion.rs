@@ -56,16 +56,20 @@ fn some(left: Left) -> Option<Left> {
 fn of_derived(time: &[f64], x: &[f64], derived: Derived) -> Motion {
     if derived.corners.is_empty() {
         let calming = derived.calming(time, x);
-        let Calm { displacement, velocity, noisy } = calming.over(time, x);
+        let Calm { mut displacement, velocity, noisy } = calming.over(time, x);
+        let lost = velocity::found(&mut displacement, x);
         let ends = ends(time.len(), derived.half);
-        let left_out = velocity::joined(ends.into_iter().chain(derived.unresolved(time, x)).collect());
+        let left_out = ends.into_iter().chain(derived.unresolved(time, x)).chain(lost);
+        let left_out = velocity::joined(left_out.collect());
         let left = some(Left::Derived(calming));
         return (displacement, velocity, Doubts { left_out, noisy, cornered: false, left });
     }
     // Across a corner or a bend a longer window takes off motion.
     let parts = Parts::of(time, x, &derived);
-    let Calm { displacement, velocity, noisy } = parts.calm(time, x, &derived);
-    let (left_out, left) = (derived.corners, some(Left::Between(parts)));
+    let Calm { mut displacement, velocity, noisy } = parts.calm(time, x, &derived);
+    let lost = velocity::found(&mut displacement, x);
+    let left_out = velocity::joined(derived.corners.into_iter().chain(lost).collect());
+    let left = some(Left::Between(parts));
     (displacement, velocity, Doubts { left_out, noisy, cornered: derived.sharp, left })
 }
 

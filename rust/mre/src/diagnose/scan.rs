@@ -9,6 +9,7 @@ use rayon::prelude::*;
 use super::null::Null;
 use crate::effect::Scene;
 use crate::kernel::filter::dot;
+use crate::spread::median;
 
 /// The lowest frequency, in lines of a recording: a slower one is what wanders.
 pub(super) const LOWEST: f64 = 3.0;
@@ -125,11 +126,6 @@ impl Null<'_> {
         };
         (0..self.assembly().campaign().recordings().len()).map(of).collect::<Option<_>>().map(Scan)
     }
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    let middle = values.len() / 2;
-    *values.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
 #[cfg(test)]

@@ -4,7 +4,8 @@ use rayon::prelude::*;
 
 use super::dispatch::{self, Isa, for_every_isa};
 use super::hysteretic::{Any, Shapes, rk4, stiffness};
-use super::intervals::{Interval, Plan};
+use super::interval::Interval;
+use super::intervals::Plan;
 
 /// Most traces side by side.
 const WIDE: usize = 16;

@@ -5,6 +5,8 @@
 
 use std::cell::LazyCell;
 
+use crate::spread::median;
+
 /// Intervals that a jump takes, and how many times what changes in the intervals before and after it is at least: one, or
 /// two, in which a corner is rounded.
 pub(crate) const ALONE: (usize, f64) = (1, 4.0);
@@ -66,12 +68,7 @@ pub(crate) fn jumps(time: &[f64], displacement: &[f64], velocity: &[f64]) -> Vec
 
 /// Median of the changes between neighbours.
 pub(crate) fn usual_change(values: &[f64]) -> f64 {
-    let mut changes: Vec<f64> = values.windows(2).map(|v| (v[1] - v[0]).abs()).collect();
-    if changes.is_empty() {
-        return 0.0;
-    }
-    let middle = changes.len() / 2;
-    *changes.select_nth_unstable_by(middle, f64::total_cmp).1
+    median(values.windows(2).map(|v| (v[1] - v[0]).abs()).collect())
 }
 
 /// True where the samples around are evenly spaced: across a gap much changes that is no corner.

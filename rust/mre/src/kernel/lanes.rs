@@ -1,7 +1,8 @@
 //! Hysteretic variables of several candidates side by side, one SIMD lane each.
 
 use super::hysteretic::{Any, One, Power, Shapes, Two, rk4, stiffness};
-use super::intervals::{Interval, Plan};
+use super::interval::Interval;
+use super::intervals::Plan;
 
 /// Candidates simulated side by side.
 pub(crate) const LANES: usize = 16;

@@ -15,8 +15,10 @@ pub(crate) mod elementary;
 #[cfg(test)]
 mod example;
 pub(crate) mod filter;
+pub(crate) mod halfway;
 pub(crate) mod hysteretic;
 pub(crate) mod hysteretic_traces;
+mod interval;
 pub(crate) mod intervals;
 pub(crate) mod jumps;
 mod lanes;

@@ -192,7 +192,9 @@ mod tests {
         for (i, x) in x.iter_mut().enumerate() {
             *x += if i % 2 == 0 { 0.02 } else { -0.02 };
         }
-        assert!(still == trace([&time, &x, &v], &Condition::Missing, shape, change));
+        // Its path is less exact than one that meets an exact displacement.
+        let moved = largest_difference(&still, &trace([&time, &x, &v], &Condition::Missing, shape, change));
+        assert!(moved < 1e-5, "{moved}");
     }
 
     #[test]

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 
 use super::cuts::worth;
 use super::local::{NARROWEST, TERMS, chebyshev};
+use crate::spread::median;
 
 /// Half windows over which a bend is looked for: over more it stands out of the noise further, and a motion needs more terms.
 const REACH: f64 = 1.5;
@@ -120,7 +121,7 @@ impl<'a> Windows<'a> {
     fn peaks(&self) -> Vec<usize> {
         let (reach, last) = (self.reach, self.displacement.len() - 1);
         let sizes: Vec<f64> = (reach..=last - reach).into_par_iter().map(|i| self.size(i)).collect();
-        let least = STANDS_OUT * (median(&sizes) / MEDIAN).max(1.0);
+        let least = STANDS_OUT * (median(sizes.clone()) / MEDIAN).max(1.0);
         let mut largest: Vec<usize> = (0..sizes.len()).filter(|k| sizes[*k] > least).collect();
         largest.sort_by(|a, b| sizes[*b].total_cmp(&sizes[*a]));
         let mut hidden = vec![false; sizes.len()];
@@ -168,12 +169,6 @@ impl<'a> Windows<'a> {
 fn polynomials(samples: usize, terms: usize) -> DMatrix<f64> {
     let place = |k: usize| 2.0 * k as f64 / (samples - 1) as f64 - 1.0;
     DMatrix::from_fn(samples, terms, |k, c| chebyshev::<MORE_TERMS>(place(k))[c]).qr().q()
-}
-
-fn median(values: &[f64]) -> f64 {
-    let mut values = values.to_vec();
-    let middle = values.len() / 2;
-    *values.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
 #[cfg(test)]

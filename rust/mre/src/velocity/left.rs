@@ -7,7 +7,7 @@ use super::parts::Parts;
 use super::recorded::{Smoothed, Way};
 use super::together::Together;
 use crate::deviate::normal;
-use crate::kernel::intervals::way;
+use crate::kernel::halfway::way;
 
 /// How noise was taken off a motion, of which some is left.
 #[derive(Debug, Clone)]

@@ -8,6 +8,7 @@ use super::window::Window;
 use super::{PART_TERMS, cut};
 use crate::kernel::jumps::jumps;
 use crate::recording::mean;
+use crate::spread::median;
 
 /// Noise has a median square above this share of its mean square; that of Gaussian noise is 0.45.
 const EVERYWHERE: f64 = 0.1;
@@ -72,10 +73,9 @@ pub(crate) fn smoothed(time: &[f64], displacement: &[f64], velocity: &[f64]) -> 
 
 /// True where what was taken off a series is taken off everywhere, as noise is.
 pub(super) fn everywhere(found: &[f64], series: &[f64]) -> bool {
-    let mut taken: Vec<f64> = found.iter().zip(series).map(|(a, b)| (a - b).powi(2)).collect();
+    let taken: Vec<f64> = found.iter().zip(series).map(|(a, b)| (a - b).powi(2)).collect();
     let average = mean(&taken);
-    let middle = taken.len() / 2;
-    *taken.select_nth_unstable_by(middle, f64::total_cmp).1 > EVERYWHERE * average
+    median(taken) > EVERYWHERE * average
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use super::cut;
 use super::together::squares;
 use super::window::Window;
+use crate::spread::median;
 
 /// Median of the square of a normal variable of variance one.
 const GAUSSIAN: f64 = 0.455;
@@ -95,10 +96,6 @@ impl Smoothing {
             pairs.filter(|(_, kept)| *kept > 0.0).map(|((x, s), kept)| (x - s).powi(2) / kept).collect();
         // A rounded displacement that rests has none there.
         squares.retain(|square| *square > 0.0);
-        if squares.is_empty() {
-            return 0.0;
-        }
-        let middle = squares.len() / 2;
-        *squares.select_nth_unstable_by(middle, f64::total_cmp).1 / GAUSSIAN
+        median(squares) / GAUSSIAN
     }
 }
