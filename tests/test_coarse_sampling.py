@@ -1,4 +1,4 @@
-"""Hysteretic devices at forty samples a second: where a path between samples misses a kink, their state does."""
+"""Hysteretic devices at forty samples a second: what a path between samples misses stays in their state."""
 
 from collections.abc import Callable
 
