@@ -97,6 +97,10 @@ pub(crate) fn sizes(given: &Bound<'_, PyMapping>) -> PyResult<Sizes> {
     };
     Ok(Sizes {
         displacement: number("displacement")?,
+        // Models of before it mattered have none.
+        noise: item("noise")
+            .filter(|value| !value.eq(0.0).unwrap_or(false))
+            .map_or(Ok(0.0), |_| number("noise"))?,
         velocity: number("velocity")?,
         force: number("force")?,
         step: number("step")?,
@@ -132,6 +136,7 @@ fn unusable(name: &str, wanted: &str) -> PyErr {
 pub(crate) fn any_sizes() -> Sizes {
     Sizes {
         displacement: 1.0,
+        noise: 0.0,
         velocity: 1.0,
         force: 1.0,
         step: 0.01,

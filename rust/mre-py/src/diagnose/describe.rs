@@ -220,7 +220,7 @@ fn levels(base: &Base, estimates: &Estimates) -> Vec<Value> {
 fn sizes(found: &Diagnosis) -> Value {
     let s = found.named.assembly.campaign().sizes();
     json!({
-        "displacement": s.displacement, "velocity": s.velocity, "force": s.force, "step": s.step,
+        "displacement": s.displacement, "noise": s.noise, "velocity": s.velocity, "force": s.force, "step": s.step,
         "duration": s.duration, "total": s.total, "path": s.path, "energy": s.energy,
         "dissipated": s.dissipated, "life": s.life,
         "current": s.current, "current_varies": s.current_varies,

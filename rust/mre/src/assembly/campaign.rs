@@ -12,6 +12,7 @@ use super::motion::{Doubts, of_one_motion, shaken};
 use crate::effect::{Acceleration, Scene, Sizes};
 use crate::error::{Error, Result};
 use crate::recording::{Condition, Recording};
+use crate::velocity::Left;
 
 /// Times that the noise of motions is drawn anew.
 const SHAKEN: u64 = 16;
@@ -45,9 +46,11 @@ impl Campaign {
             }
             evenly_sampled(recording)?;
         }
-        let (recordings, doubts): (Vec<Arc<Recording>>, _) =
+        let (recordings, doubts): (Vec<Arc<Recording>>, Vec<Doubts>) =
             recordings.into_par_iter().map(|r| of_one_motion(&r)).unzip();
-        let sizes = Sizes::of(recordings.iter().map(AsRef::as_ref));
+        let noise = doubts.iter().filter_map(|doubts| doubts.left.as_ref().map(Left::of_displacement));
+        let noise = noise.fold(0.0, f64::max);
+        let sizes = Sizes { noise, ..Sizes::of(recordings.iter().map(AsRef::as_ref)) };
         Ok(Self::with_sizes(recordings, sizes).doubting(doubts))
     }
 

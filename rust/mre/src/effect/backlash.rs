@@ -38,15 +38,23 @@ const SMALLEST: f64 = 4.8e-4;
 const RATIO: f64 = 1.6;
 const COUNT: i32 = 14;
 
-/// A gap below this share of the largest displacement is none: where a motion rests, it would take off what is left of its
-/// noise.
+/// A gap below this share of the largest displacement is none, nor one within so many standard deviations of the noise of a
+/// displacement: where a motion rests, it would take off what is left of that.
 const LEAST: f64 = 4e-4;
+const NOISE: f64 = 3.0;
+/// And the smallest that is tried is so many times as large.
+const ABOVE: f64 = 1.2;
 
 /// Gaps and their middles that are tried, over the largest displacement.
 const GAPS: [f64; 4] = [0.01, 0.03, 0.08, 0.2];
 const MIDDLES: [f64; 4] = [-0.3, -0.1, 0.1, 0.3];
 
 const OFF_CENTRE: &str = "there is free play: at a place beside the middle the device is not moved";
+
+/// The smallest gap that is one, mm.
+fn least(sizes: &Sizes) -> f64 {
+    (LEAST * sizes.displacement).max(NOISE * sizes.noise).min(0.25 * sizes.displacement)
+}
 
 /// Displacement beyond a gap of half width `g`.
 pub(super) fn beyond(x: f64, g: f64) -> f64 {
@@ -125,7 +133,7 @@ impl Effect for Backlash {
 
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
         let half = 0.5 * sizes.displacement;
-        let gap = Parameter { smallest: 0.0, ..within("g", "mm", LEAST * sizes.displacement, half) };
+        let gap = Parameter { smallest: 0.0, ..within("g", "mm", least(sizes), half) };
         match self {
             Self::OffCentre | Self::FreeOffCentre => vec![gap, within("c", "mm", -half, half)],
             _ => vec![gap],
@@ -133,16 +141,23 @@ impl Effect for Backlash {
     }
 
     fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
-        let off_centre = |g: f64| MIDDLES.map(|c| vec![g * sizes.displacement, c * sizes.displacement]);
         let shares: Vec<f64> = match self {
-            Self::OffCentre | Self::FreeOffCentre => return GAPS.into_iter().flat_map(off_centre).collect(),
+            Self::OffCentre | Self::FreeOffCentre => GAPS.to_vec(),
             Self::DeadZone | Self::RoundDeadZone => vec![0.003, 0.01, 0.03, 0.08, 0.16, 0.3],
             // One of twice the right size explains nothing, and the fit jumps from sample to sample.
             Self::FreeDeadZone | Self::Play | Self::SpringPlay => {
                 (0..COUNT).map(|k| SMALLEST * RATIO.powi(k)).collect()
             }
         };
-        shares.iter().map(|share| vec![share * sizes.displacement]).collect()
+        let size = sizes.displacement;
+        let mut gaps: Vec<f64> =
+            shares.iter().map(|share| (share * size).max(ABOVE * least(sizes))).collect();
+        gaps.dedup();
+        let off_centre = |g: f64| MIDDLES.map(|c| vec![g, c * size]);
+        match self {
+            Self::OffCentre | Self::FreeOffCentre => gaps.into_iter().flat_map(off_centre).collect(),
+            _ => gaps.into_iter().map(|g| vec![g]).collect(),
+        }
     }
 
     fn motion(&self, scene: &Scene, shape: &[f64]) -> Option<Motion> {

@@ -100,6 +100,8 @@ const LEAST_DISSIPATED: f64 = 0.02;
 pub struct Sizes {
     /// Largest absolute displacement, mm.
     pub displacement: f64,
+    /// Largest standard deviation of the noise that a displacement had, mm; zero where none had any.
+    pub noise: f64,
     /// Largest speed, mm/s.
     pub velocity: f64,
     /// Largest absolute force, N.
@@ -133,6 +135,7 @@ impl Sizes {
         let forces: Vec<&[f64]> = recordings.clone().filter_map(Recording::force).collect();
         let mut sizes = Self {
             displacement: 0.0,
+            noise: 0.0,
             velocity: 0.0,
             force: 0.0,
             step: f64::INFINITY,

@@ -8,7 +8,7 @@ use super::local::{NARROWEST, TERMS, chebyshev};
 use crate::spread::median;
 
 /// Half windows over which a bend is looked for: over more it stands out of the noise further, and a motion needs more terms.
-const REACH: f64 = 1.5;
+const REACHES: [f64; 2] = [1.5, 3.0];
 /// Standard deviations by which a bend stands out of the noise, of what else polynomials miss, and of what is left beside it.
 const STANDS_OUT: f64 = 5.0;
 /// Terms of a polynomial that leaves less than one with a bend where a motion is only quicker than elsewhere.
@@ -31,17 +31,27 @@ pub(super) struct Bends {
     pub(super) after: Vec<usize>,
     /// True where its slope jumps at one, and not its acceleration alone.
     pub(super) sharp: bool,
+    /// Samples after which it bends too little to be cut.
+    pub(super) slight: Vec<usize>,
 }
 
 /// The bends of a displacement in mm, on an even grid and with noise of this `variance` in mm² that is told over `half` samples
 /// on either side.
 pub(super) fn bends(time: &[f64], displacement: &[f64], variance: f64, half: usize) -> Bends {
-    let reach = ((REACH * half as f64).ceil() as usize).max(MORE_TERMS);
-    if variance <= 0.0 || displacement.len() <= 2 * reach + 1 {
+    if variance <= 0.0 {
         return Bends::default();
     }
-    let windows = Windows::new(displacement, variance, reach);
-    let mut found: Vec<(usize, bool)> = windows.peaks().into_iter().map(|i| windows.cut(i)).collect();
+    let mut found: Vec<(usize, bool)> = Vec::new();
+    for times in REACHES {
+        let reach = ((times * half as f64).ceil() as usize).max(MORE_TERMS);
+        if displacement.len() > 2 * reach + 1 {
+            let windows = Windows::new(displacement, variance, reach);
+            let more = windows.peaks().into_iter().map(|i| windows.cut(i));
+            let apart = |(i, _): &(usize, bool)| found.iter().all(|(known, _)| known.abs_diff(*i) > reach);
+            let more: Vec<(usize, bool)> = more.filter(apart).collect();
+            found.extend(more);
+        }
+    }
     found.sort_unstable();
     let mut start = 0;
     let long_enough = |(after, _): &(usize, bool)| {
@@ -53,7 +63,9 @@ pub(super) fn bends(time: &[f64], displacement: &[f64], variance: f64, half: usi
     };
     found.retain(long_enough);
     let after = worth(found.iter().map(|(i, _)| *i).collect(), [time, displacement], variance);
-    Bends { sharp: found.iter().any(|(i, sharp)| *sharp && after.contains(i)), after }
+    let (cut, slight): (Vec<(usize, bool)>, Vec<_>) = found.into_iter().partition(|(i, _)| after.contains(i));
+    let slight = slight.into_iter().map(|(i, _)| i).collect();
+    Bends { sharp: cut.iter().any(|(_, sharp)| *sharp), after, slight }
 }
 
 /// What is looked at around every sample, as far as `reach`.

@@ -58,7 +58,8 @@ pub(super) fn between(after: &[usize], time: &[f64], displacement: &[f64], terms
         doubted.extend([part.start..part.start + noisy, part.end - noisy..part.end]);
     }
     let half = smoothing.half();
-    Derived { velocity, displacement: smooth, half, corners: joined(doubted), sharp: false, smoothing }
+    let (corners, bends) = (joined(doubted), Vec::new());
+    Derived { velocity, displacement: smooth, half, corners, sharp: false, bends, smoothing }
 }
 
 #[cfg(test)]

@@ -35,6 +35,15 @@ impl Left {
         }
     }
 
+    /// Standard deviation of the noise that the displacement had, mm.
+    pub(crate) fn of_displacement(&self) -> f64 {
+        match self {
+            Self::Derived(calming) => calming.noise,
+            Self::Between(parts) => parts.noise,
+            Self::Recorded(_, _, together) => together.noise,
+        }
+    }
+
     /// What is left of as much noise as there was, drawn anew, of a motion at times in s with a displacement in mm and a
     /// velocity in mm/s.
     pub(crate) fn drawn(&self, [time, displacement, velocity]: [&[f64]; 3], stream: &mut ChaCha8Rng) -> Calm {

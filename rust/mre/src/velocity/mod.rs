@@ -77,6 +77,8 @@ pub struct Derived {
     pub corners: Vec<Range<usize>>,
     /// True where some of them are corners: slopes jump there, and not accelerations alone.
     pub sharp: bool,
+    /// Last samples before bends that are slighter, which polynomials go across.
+    pub bends: Vec<usize>,
     /// How both were derived.
     pub smoothing: Smoothing,
 }
@@ -114,7 +116,13 @@ impl Derived {
         let noise = self.smoothing.variance(displacement, &self.displacement).sqrt();
         let missed = differences::missed(time, displacement, &self.velocity, noise, TURNED);
         let around = |(i, _): (usize, f64)| i.saturating_sub(BESIDE)..(i + BESIDE + 1).min(time.len());
-        joined(missed.into_iter().map(around).collect())
+        // As far as a window has a slight bend in it.
+        let across = |i: &usize| {
+            let own = |(part, window): &(Range<usize>, Window)| part.contains(i).then_some(window.half);
+            let reach = self.smoothing.0.iter().rev().find_map(own).unwrap_or(0);
+            (i + 1).saturating_sub(reach)..(i + 1 + reach).min(time.len())
+        };
+        joined(missed.into_iter().map(around).chain(self.bends.iter().map(across)).collect())
     }
 }
 
@@ -142,15 +150,23 @@ pub fn from_displacement(time: &[f64], displacement: &[f64]) -> Derived {
     let smoothing = Smoothing(vec![(0..time.len(), window)]);
     let (velocity, smooth) = smoothing.over(time, displacement);
     let corners = Vec::new();
-    let mut derived =
-        Derived { velocity, displacement: smooth, half: window.half, corners, sharp: false, smoothing };
+    let mut derived = Derived {
+        velocity,
+        displacement: smooth,
+        half: window.half,
+        corners,
+        sharp: false,
+        bends: Vec::new(),
+        smoothing,
+    };
     if even_step(time).is_ok() {
         between_corners(&mut derived, time, displacement, window);
         if derived.corners.is_empty() && grid(time).is_some() {
             let variance = derived.smoothing.variance(displacement, &derived.displacement);
-            let Bends { after, sharp } = bends(time, displacement, variance, window.half);
+            let Bends { after, sharp, slight } = bends(time, displacement, variance, window.half);
+            derived.bends.clone_from(&slight);
             if !after.is_empty() {
-                derived = Derived { sharp, ..between(&after, time, displacement, &[TERMS]) };
+                derived = Derived { sharp, bends: slight, ..between(&after, time, displacement, &[TERMS]) };
                 let unresolved = derived.unresolved(time, displacement);
                 derived.corners = joined(derived.corners.into_iter().chain(unresolved).collect());
             }
