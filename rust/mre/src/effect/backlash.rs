@@ -180,3 +180,39 @@ impl Effect for Backlash {
         Some(Motion { displacement, velocity })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::recording::{Condition, Recording, Series};
+
+    #[test]
+    fn a_gap_within_the_noise_is_none_and_every_start_is_in_its_box() -> crate::error::Result<()> {
+        let time: Vec<f64> = (0..100).map(|i| f64::from(i) / 50.0).collect();
+        let recording = Recording::new(Series {
+            displacement: time.iter().map(|t| 5.0 * (6.0 * t).sin()).collect(),
+            velocity: None,
+            force: Some(vec![1.0; time.len()]),
+            simulated: None,
+            current: Condition::Missing,
+            temperature: Condition::Missing,
+            name: "sine".into(),
+            time,
+        })?;
+        let plain = Sizes::of(std::iter::once(&recording));
+        for noise in [0.0, 0.01, 0.3, 10.0] {
+            let sizes = Sizes { noise, ..plain.clone() };
+            let wanted = (3.0 * noise).clamp(LEAST * sizes.displacement, 0.25 * sizes.displacement);
+            for law in [Backlash::Play, Backlash::SpringPlay, Backlash::RoundDeadZone, Backlash::OffCentre] {
+                let shape = law.shape(&sizes);
+                assert!((shape[0].lower - wanted).abs() < 1e-12, "{law:?} {noise}");
+                let starts = law.starts(&sizes);
+                let inside = |start: &Vec<f64>| {
+                    start.iter().zip(&shape).all(|(value, p)| (p.lower..=p.upper).contains(value))
+                };
+                assert!(!starts.is_empty() && starts.iter().all(inside), "{law:?} {noise} {starts:?}");
+            }
+        }
+        Ok(())
+    }
+}

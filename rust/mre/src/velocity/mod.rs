@@ -14,6 +14,7 @@ mod calming;
 mod corners;
 mod cuts;
 mod differences;
+mod kinks;
 mod left;
 mod local;
 mod lost;
