@@ -2,7 +2,7 @@
 //!
 //! | symbol | meaning | unit | range |
 //! |---|---|---|---|
-//! | g | half the free play | mm | 0.04 % to half of the largest stroke |
+//! | g | half the free play | mm | 0.04 % of the largest stroke, or three times the noise of the displacement, to half of the stroke |
 //! | c | its middle | mm | half the largest stroke to either side |
 //!
 //! Reference: Nordin and Gutman, Automatica 38 (2002) 1633.
@@ -51,7 +51,7 @@ const MIDDLES: [f64; 4] = [-0.3, -0.1, 0.1, 0.3];
 
 const OFF_CENTRE: &str = "there is free play: at a place beside the middle the device is not moved";
 
-/// The smallest gap that is one, mm.
+/// The smallest gap that is one, mm; under much noise a box is left all the same.
 fn least(sizes: &Sizes) -> f64 {
     (LEAST * sizes.displacement).max(NOISE * sizes.noise).min(0.25 * sizes.displacement)
 }
