@@ -96,3 +96,18 @@ def test_nothing_is_missing_beside_noise_of_the_displacement(
     seen = x + noise * np.abs(x).max() * rng.normal(size=t.size)
     found = diagnose(Recording(t, seen, force, name="noisy"), base="bouc_wen", seed=1)
     assert found.verdict == "adequate", found
+
+
+def test_a_play_well_beyond_the_noise_is_named() -> None:
+    rng = np.random.default_rng([171, 0])
+    t, fine = cosine_ramps(rng, 100.0)
+    noise = 5e-4 * np.abs(fine).max()
+    gap, played, place = 10 * noise, np.empty_like(fine), 0.0
+    for i, x in enumerate(fine):
+        place = max(x - gap, min(x + gap, place))
+        played[i] = place
+    _, force = device(played, t, rng, [0.0024, -0.6])
+    seen = fine[::FINER] + noise * rng.normal(size=t.size)
+    found = diagnose(Recording(t, seen, force, name="play"), base="bouc_wen", seed=1)
+    plays = [effect.parameters["g"].value for effect in found.effects if effect.id == "backlash"]
+    assert len(plays) == 1 and abs(plays[0] / gap - 1) < 0.2, found

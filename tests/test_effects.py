@@ -205,6 +205,9 @@ def test_effects_need_sizes() -> None:
     for broken in ({"displacement": "far"}, {"displacement": float("inf")}):
         with pytest.raises(MreError, match="sizes have no usable 'displacement'"):
             _core.simulate("sinh", device().given(), motion(), [BRANCH.given()], SIZES | broken)
+    with pytest.raises(MreError, match="sizes have no usable 'noise': wanted a number from 0"):
+        _core.simulate("sinh", device().given(), motion(), [BRANCH.given()], SIZES | {"noise": -1.0})
+    _core.simulate("sinh", device().given(), motion(), [BRANCH.given()], SIZES | {"noise": 1e-40})
 
 
 BROKEN: dict[str, Any] = {

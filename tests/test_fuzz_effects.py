@@ -32,7 +32,8 @@ def sizes_of(recording: Recording, data: st.DataObject) -> dict[str, Any]:
     if data.draw(st.booleans()):
         return {name: float(value) for name, value in true.items()}
     current = data.draw(st.sampled_from([None, [0.0, 1.0], [0.0, 0.0]]))
-    return {name: data.draw(scales(9)) for name in SIZES} | {"current": current}
+    noise = data.draw(st.one_of(st.just(0.0), scales(9)))
+    return {name: data.draw(scales(9)) for name in SIZES} | {"current": current, "noise": noise}
 
 
 def effect_of(name: str, law: str, data: st.DataObject) -> Effect:

@@ -89,18 +89,20 @@ pub(crate) fn addition((id, law, coefficients, shape): Given) -> PyResult<Additi
 /// Sizes of the recordings that effects were fitted to.
 pub(crate) fn sizes(given: &Bound<'_, PyMapping>) -> PyResult<Sizes> {
     let item = |name: &str| given.get_item(name).ok().filter(|value| !value.is_none());
-    let number = |name: &str| -> PyResult<f64> {
+    let within = |name: &str, least: f64| {
         let value = item(name).and_then(|value| value.extract::<f64>().ok());
-        value
-            .filter(|value| (SMALLEST..=LARGEST).contains(value))
-            .ok_or_else(|| unusable(name, "a number above 0"))
+        value.filter(|value| (least..=LARGEST).contains(value))
+    };
+    let number = |name: &str| -> PyResult<f64> {
+        within(name, SMALLEST).ok_or_else(|| unusable(name, "a number above 0"))
     };
     Ok(Sizes {
         displacement: number("displacement")?,
         // Models of before it mattered have none.
-        noise: item("noise")
-            .filter(|value| !value.eq(0.0).unwrap_or(false))
-            .map_or(Ok(0.0), |_| number("noise"))?,
+        noise: match item("noise") {
+            Some(_) => within("noise", 0.0).ok_or_else(|| unusable("noise", "a number from 0"))?,
+            None => 0.0,
+        },
         velocity: number("velocity")?,
         force: number("force")?,
         step: number("step")?,

@@ -1,7 +1,7 @@
 //! The middle of values, which few that are far off do not move.
 
 /// Median of the size of a normal variable of variance one.
-const GAUSSIAN: f64 = 0.6745;
+pub(crate) const GAUSSIAN: f64 = 0.6745;
 
 /// The larger of the two in the middle of an even count; zero of none.
 pub(crate) fn median(mut values: Vec<f64>) -> f64 {

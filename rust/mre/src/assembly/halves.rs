@@ -6,7 +6,7 @@ use crate::kernel::jumps::jumps;
 use crate::recording::{Condition, Recording, Series};
 
 /// The recording with one more sample between any two: displacement by the cubic that has their velocities, or the two
-/// lines of a corner, velocity as a hysteretic variable takes it. `None` where that is no recording.
+/// lines of a corner, velocity as a cubic has it. `None` where that is no recording.
 pub(super) fn with_halves(recording: &Recording) -> Option<Recording> {
     let (time, x, v) = (recording.time(), recording.displacement(), recording.velocity());
     let jumps = jumps(time, x, v);

@@ -57,7 +57,7 @@ fn of_derived(time: &[f64], x: &[f64], derived: Derived) -> Motion {
     if derived.corners.is_empty() {
         let calming = derived.calming(time, x);
         let Calm { mut displacement, velocity, noisy } = calming.over(time, x);
-        let lost = velocity::found(&mut displacement, x);
+        let lost = velocity::give_back(&mut displacement, x);
         let ends = ends(time.len(), derived.half);
         let left_out = ends.into_iter().chain(derived.unresolved(time, x)).chain(lost);
         let left_out = velocity::joined(left_out.collect());
@@ -67,7 +67,7 @@ fn of_derived(time: &[f64], x: &[f64], derived: Derived) -> Motion {
     // Across a corner or a bend a longer window takes off motion.
     let parts = Parts::of(time, x, &derived);
     let Calm { mut displacement, velocity, noisy } = parts.calm(time, x, &derived);
-    let lost = velocity::found(&mut displacement, x);
+    let lost = velocity::give_back(&mut displacement, x);
     let left_out = velocity::joined(derived.corners.into_iter().chain(lost).collect());
     let left = some(Left::Between(parts));
     (displacement, velocity, Doubts { left_out, noisy, cornered: derived.sharp, left })

@@ -152,7 +152,7 @@ fn simulated(found: &Diagnosis, force: &[Vec<f64>], seed: u64, number: usize) ->
         Arc::new(recording.with_force(measured.collect()))
     });
     let recordings: Vec<_> = recordings.collect();
-    let sizes = Sizes::of(recordings.iter().map(AsRef::as_ref));
+    let sizes = Sizes { noise: known.sizes().noise, ..Sizes::of(recordings.iter().map(AsRef::as_ref)) };
     Campaign::with_sizes(recordings, sizes).doubting(known.doubts().to_vec())
 }
 

@@ -95,8 +95,8 @@ impl Scan {
     /// How much larger they are in each recording than under a noise of even size, by their median.
     pub(super) fn excess(&self) -> Vec<f64> {
         let of = |own: &Vec<f64>| {
-            let told: Vec<f64> = own.iter().copied().filter(|gain| *gain > 0.0).collect();
-            if told.is_empty() { 1.0 } else { (median(told) / MEDIAN).max(1.0) }
+            let told = own.iter().copied().filter(|gain| *gain > 0.0);
+            (median(told.collect()) / MEDIAN).max(1.0)
         };
         self.0.iter().map(of).collect()
     }

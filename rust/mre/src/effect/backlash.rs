@@ -34,7 +34,7 @@ pub(super) enum Backlash {
 
 /// Gaps that are tried where the velocity jumps with them: the smallest over the largest displacement, by which factor
 /// they rise, and how many they are.
-const SMALLEST: f64 = 4.8e-4;
+const SMALLEST: f64 = ABOVE * LEAST;
 const RATIO: f64 = 1.6;
 const COUNT: i32 = 14;
 

@@ -2,9 +2,9 @@
 
 use crate::physics::BOUC_WEN_STEP;
 
-/// The velocity halfway is off the straight line by at most this share of the larger speed: a cubic through
-/// samples at uneven times knows no limits, and the sub-steps follow from the speeds at the samples.
-pub(super) const MOST_BENT: f64 = 0.25;
+/// The mean velocity is beyond those at both ends by at most this share of the larger speed: a displacement that goes
+/// further has an error.
+const BEYOND: f64 = 0.25;
 
 /// A time in which the velocity keeps its sign: from one sample to the next, or to where it turns or jumps in between.
 #[derive(Debug, Clone, Copy)]
@@ -13,7 +13,7 @@ pub(crate) struct Interval {
     pub(super) velocity: [f64; 3],
     /// s.
     pub(super) step: f64,
-    /// Sub-steps per unit of stiffness: larger speed at the ends times step, over the rule's limit.
+    /// Sub-steps per unit of stiffness: largest of its three speeds times step, over the rule's limit.
     pub(super) demand: f64,
 }
 
@@ -32,11 +32,11 @@ impl Interval {
         (constant(begin, share), Some(constant(end, 1.0 - share)))
     }
 
-    /// Between these velocities so that it covers a distance in mm, and keeps its sign where both have one; `None` where no
-    /// motion does that is only sampled coarsely.
+    /// Between these velocities so that it covers a distance in mm; where both have one sign, it keeps that if it can. `None`
+    /// where no motion covers it that is only sampled coarsely.
     pub(super) fn covering([begin, end]: [f64; 2], step: f64, way: f64) -> Option<(Self, Option<Self>)> {
         let mean = way / step;
-        let more = MOST_BENT * begin.abs().max(end.abs());
+        let more = BEYOND * begin.abs().max(end.abs());
         if !(begin.min(end) - more..=begin.max(end) + more).contains(&mean) {
             return None;
         }

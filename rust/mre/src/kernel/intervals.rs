@@ -9,9 +9,12 @@ use crate::spread::deviation;
 /// More sub-steps than this between two samples: the samples are too far apart for the candidate.
 const MOST_SUBSTEPS: f64 = 1000.0;
 
-/// A path leaves the displacement between two samples where it does so by more than so many times the usual: 2 in
+/// A path leaves the displacement between two samples where it does so by more than so many times the usual: 6 in
 /// 10 million of normal errors.
 const MISSES: f64 = 5.0;
+
+/// Less than this share of the longest way between two samples is rounding.
+const ROUNDING: f64 = 1e-9;
 
 /// The times between all samples.
 #[derive(Debug, Clone)]
@@ -34,7 +37,7 @@ impl Plan {
         let (mut intervals, mut first) = (Vec::with_capacity(time.len()), vec![0]);
         let middles = middles(time, velocity, &jumps);
         let strays = strays(time, displacement, velocity, &middles);
-        let much = MISSES * deviation(&strays);
+        let much = MISSES * usual(&strays, displacement, &jumps);
         let spans = time.windows(2).zip(velocity.windows(2)).zip(displacement.windows(2));
         for (i, ((t, v), x)) in spans.enumerate() {
             let (step, v) = (t[1] - t[0], [v[0], v[1]]);
@@ -97,6 +100,15 @@ fn strays(time: &[f64], displacement: &[f64], velocity: &[f64], middles: &[f64])
         way - Interval::new([velocity[i], *middle, velocity[i + 1]], step).far()
     };
     middles.iter().enumerate().map(stray).collect()
+}
+
+/// Standard deviation of most of them, without those of jumps and of what rests but for its rounding, mm.
+fn usual(strays: &[f64], displacement: &[f64], jumps: &[(usize, f64)]) -> f64 {
+    let farthest = displacement.windows(2).map(|x| (x[1] - x[0]).abs()).fold(0.0, f64::max);
+    let mut told = strays.to_vec();
+    jumps.iter().for_each(|(i, _)| told[*i] = 0.0);
+    told.retain(|stray| stray.abs() > ROUNDING * farthest);
+    deviation(&told)
 }
 
 fn largest(intervals: &[Interval]) -> f64 {

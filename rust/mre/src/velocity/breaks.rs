@@ -58,8 +58,8 @@ pub(super) fn between(after: &[usize], time: &[f64], displacement: &[f64], terms
         doubted.extend([part.start..part.start + noisy, part.end - noisy..part.end]);
     }
     let half = smoothing.half();
-    let (corners, bends) = (joined(doubted), Vec::new());
-    Derived { velocity, displacement: smooth, half, corners, sharp: false, bends, smoothing }
+    let (corners, slight) = (joined(doubted), Vec::new());
+    Derived { velocity, displacement: smooth, half, corners, sharp: false, slight, smoothing }
 }
 
 #[cfg(test)]

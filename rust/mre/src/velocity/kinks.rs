@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::local::{TERMS, chebyshev};
-use crate::spread::median;
+use crate::spread::{GAUSSIAN, median};
 
 /// Standard deviations by which a bend stands out of the noise, of what else polynomials miss, and of what is left beside it.
 const STANDS_OUT: f64 = 5.0;
@@ -16,8 +16,6 @@ const BESIDE: usize = 10;
 const HALF: f64 = 0.5;
 /// Squares that are left beside a better place, over those beside the own, at most.
 const MOVED: f64 = 0.1;
-/// Median of the size of a normal variable of variance one.
-const MEDIAN: f64 = 0.6745;
 
 /// What is looked at around every sample, as far as `reach`.
 pub(super) struct Windows<'a> {
@@ -84,7 +82,7 @@ impl<'a> Windows<'a> {
     pub(super) fn peaks(&self) -> Vec<usize> {
         let (reach, last) = (self.reach, self.displacement.len() - 1);
         let sizes: Vec<f64> = (reach..=last - reach).into_par_iter().map(|i| self.size(i)).collect();
-        let least = STANDS_OUT * (median(sizes.clone()) / MEDIAN).max(1.0);
+        let least = STANDS_OUT * (median(sizes.clone()) / GAUSSIAN).max(1.0);
         let mut largest: Vec<usize> = (0..sizes.len()).filter(|k| sizes[*k] > least).collect();
         largest.sort_by(|a, b| sizes[*b].total_cmp(&sizes[*a]));
         let mut hidden = vec![false; sizes.len()];

@@ -6,7 +6,7 @@ use super::{BESIDE, joined};
 use crate::recording::mean;
 use crate::spread::deviation;
 
-/// By so many standard deviations of what is taken off elsewhere: 2 in 10 million of normal noise.
+/// By so many standard deviations of what is taken off elsewhere: 6 in 10 million of normal noise.
 const NOISE: f64 = 5.0;
 /// And by this share of the displacement, rms.
 const SHARE: f64 = 1e-4;
@@ -14,7 +14,7 @@ const SHARE: f64 = 1e-4;
 const FEW: usize = 4;
 
 /// Gives a smoothed displacement in mm back what it has lost of the measured one, and says at which samples.
-pub(crate) fn found(smooth: &mut [f64], measured: &[f64]) -> Vec<Range<usize>> {
+pub(crate) fn give_back(smooth: &mut [f64], measured: &[f64]) -> Vec<Range<usize>> {
     let taken: Vec<f64> = measured.iter().zip(smooth.iter()).map(|(m, s)| m - s).collect();
     let average = mean(measured);
     let size = measured.iter().map(|x| (x - average).powi(2)).sum::<f64>() / measured.len() as f64;
@@ -46,12 +46,12 @@ mod tests {
     fn what_is_far_beyond_the_noise_is_given_back() {
         let (smooth, mut measured) = motion(500);
         let mut kept = smooth.clone();
-        assert_eq!(found(&mut kept, &measured), []);
+        assert_eq!(give_back(&mut kept, &measured), []);
         assert_eq!(kept, smooth);
         for (i, off) in [(200, 0.02), (201, -0.03), (300, 0.01)] {
             measured[i] += off;
         }
-        assert_eq!(found(&mut kept, &measured), [199..203, 299..302]);
+        assert_eq!(give_back(&mut kept, &measured), [199..203, 299..302]);
         let given_back: Vec<usize> = (0..500).filter(|i| kept[*i] != smooth[*i]).collect();
         assert_eq!(given_back, [200, 201, 300]);
         assert!(given_back.iter().all(|i| kept[*i] == measured[*i]));
@@ -64,7 +64,7 @@ mod tests {
             *x = smooth + 30.0 * (*x - smooth);
         }
         let mut kept = smooth.clone();
-        assert_eq!(found(&mut kept, &measured), []);
+        assert_eq!(give_back(&mut kept, &measured), []);
         assert_eq!(kept, smooth);
     }
 }

@@ -38,7 +38,7 @@ use corners::corners;
 pub(crate) use corners::joined;
 pub(crate) use left::Left;
 use local::{NARROWEST, TERMS};
-pub(crate) use lost::found;
+pub(crate) use lost::give_back;
 pub(crate) use parts::Parts;
 pub(crate) use recorded::{Smoothed, smoothed};
 pub use smoothing::Smoothing;
@@ -79,7 +79,7 @@ pub struct Derived {
     /// True where some of them are corners: slopes jump there, and not accelerations alone.
     pub sharp: bool,
     /// Last samples before bends that are slighter, which polynomials go across.
-    pub bends: Vec<usize>,
+    pub slight: Vec<usize>,
     /// How both were derived.
     pub smoothing: Smoothing,
 }
@@ -112,7 +112,7 @@ impl Derived {
     }
 
     /// Samples of a motion, derived from this displacement in mm, where it turns within fewer samples than
-    /// give a slope: about them polynomials and differences give another.
+    /// give a slope, or has a slight bend: about them polynomials and differences give another.
     pub fn unresolved(&self, time: &[f64], displacement: &[f64]) -> Vec<Range<usize>> {
         let noise = self.smoothing.variance(displacement, &self.displacement).sqrt();
         let missed = differences::missed(time, displacement, &self.velocity, noise, TURNED);
@@ -123,7 +123,7 @@ impl Derived {
             let reach = self.smoothing.0.iter().rev().find_map(own).unwrap_or(0);
             (i + 1).saturating_sub(reach)..(i + 1 + reach).min(time.len())
         };
-        joined(missed.into_iter().map(around).chain(self.bends.iter().map(across)).collect())
+        joined(missed.into_iter().map(around).chain(self.slight.iter().map(across)).collect())
     }
 }
 
@@ -157,7 +157,7 @@ pub fn from_displacement(time: &[f64], displacement: &[f64]) -> Derived {
         half: window.half,
         corners,
         sharp: false,
-        bends: Vec::new(),
+        slight: Vec::new(),
         smoothing,
     };
     if even_step(time).is_ok() {
@@ -165,9 +165,9 @@ pub fn from_displacement(time: &[f64], displacement: &[f64]) -> Derived {
         if derived.corners.is_empty() && grid(time).is_some() {
             let variance = derived.smoothing.variance(displacement, &derived.displacement);
             let Bends { after, sharp, slight } = bends(time, displacement, variance, window.half);
-            derived.bends.clone_from(&slight);
+            derived.slight.clone_from(&slight);
             if !after.is_empty() {
-                derived = Derived { sharp, bends: slight, ..between(&after, time, displacement, &[TERMS]) };
+                derived = Derived { sharp, slight, ..between(&after, time, displacement, &[TERMS]) };
                 let unresolved = derived.unresolved(time, displacement);
                 derived.corners = joined(derived.corners.into_iter().chain(unresolved).collect());
             }
