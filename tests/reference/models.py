@@ -111,8 +111,7 @@ def pieces(motion: Motion) -> list[Piece]:
         v0, v1 = float(motion.velocity[i]), float(motion.velocity[i + 1])
         area = float(motion.time[i + 1] - motion.time[i]) * (v0 + 4.0 * half + v1) / 6.0
         strays.append(float(motion.displacement[i + 1] - motion.displacement[i]) - area)
-    rounding = 1e-9 * float(np.max(np.abs(np.diff(motion.displacement))))
-    sizes = np.sort([abs(s) for i, s in enumerate(strays) if i not in corners and abs(s) > rounding])
+    sizes = np.sort([abs(stray) for i, stray in enumerate(strays) if stray and i not in corners])
     much = 5.0 / 0.6745 * float(sizes[len(sizes) // 2]) if len(sizes) else 0.0
     for i, half in enumerate(halves):
         v0, v1 = float(motion.velocity[i]), float(motion.velocity[i + 1])

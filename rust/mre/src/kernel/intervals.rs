@@ -13,9 +13,6 @@ const MOST_SUBSTEPS: f64 = 1000.0;
 /// 10 million of normal errors.
 const MISSES: f64 = 5.0;
 
-/// Less than this share of the longest way between two samples is rounding.
-const ROUNDING: f64 = 1e-9;
-
 /// The times between all samples.
 #[derive(Debug, Clone)]
 pub(crate) struct Plan {
@@ -37,7 +34,7 @@ impl Plan {
         let (mut intervals, mut first) = (Vec::with_capacity(time.len()), vec![0]);
         let middles = middles(time, velocity, &jumps);
         let strays = strays(time, displacement, velocity, &middles);
-        let much = MISSES * usual(&strays, displacement, &jumps);
+        let much = MISSES * usual(&strays, &jumps);
         let spans = time.windows(2).zip(velocity.windows(2)).zip(displacement.windows(2));
         for (i, ((t, v), x)) in spans.enumerate() {
             let (step, v) = (t[1] - t[0], [v[0], v[1]]);
@@ -102,13 +99,12 @@ fn strays(time: &[f64], displacement: &[f64], velocity: &[f64], middles: &[f64])
     middles.iter().enumerate().map(stray).collect()
 }
 
-/// Standard deviation of most of them, without those of jumps and of what rests but for its rounding, mm.
-fn usual(strays: &[f64], displacement: &[f64], jumps: &[(usize, f64)]) -> f64 {
-    let farthest = displacement.windows(2).map(|x| (x[1] - x[0]).abs()).fold(0.0, f64::max);
-    let mut told = strays.to_vec();
-    jumps.iter().for_each(|(i, _)| told[*i] = 0.0);
-    told.retain(|stray| stray.abs() > ROUNDING * farthest);
-    deviation(&told)
+/// Standard deviation of most of them, without those of jumps, mm. Where most of a motion is met but for rounding, that is
+/// what is usual.
+fn usual(strays: &[f64], jumps: &[(usize, f64)]) -> f64 {
+    let mut smooth = strays.to_vec();
+    jumps.iter().for_each(|(i, _)| smooth[*i] = 0.0);
+    deviation(&smooth)
 }
 
 fn largest(intervals: &[Interval]) -> f64 {
