@@ -103,7 +103,9 @@ fn strays(time: &[f64], displacement: &[f64], velocity: &[f64], middles: &[f64])
 /// what is usual.
 fn usual(strays: &[f64], jumps: &[(usize, f64)]) -> f64 {
     let mut smooth = strays.to_vec();
-    jumps.iter().for_each(|(i, _)| smooth[*i] = 0.0);
+    for (i, _) in jumps {
+        smooth[*i] = 0.0;
+    }
     deviation(&smooth)
 }
 
