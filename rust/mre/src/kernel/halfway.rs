@@ -1,5 +1,7 @@
 //! Velocity halfway between the samples of a motion.
 
+use super::interval::Interval;
+
 /// The velocity halfway is off the straight line by at most this share of the larger speed: a cubic through
 /// samples at uneven times knows no limits.
 const MOST_BENT: f64 = 0.25;
@@ -8,7 +10,7 @@ const MOST_BENT: f64 = 0.25;
 pub(crate) fn way(time: &[f64], velocity: &[f64]) -> Vec<f64> {
     let spans = time.windows(2).zip(velocity.windows(2)).zip(middles(time, velocity, &[]));
     let ways = spans.scan(0.0, |way, ((t, v), middle)| {
-        *way += (t[1] - t[0]) * (v[0] + 4.0 * middle + v[1]) / 6.0;
+        *way += Interval::new([v[0], middle, v[1]], t[1] - t[0]).far();
         Some(*way)
     });
     std::iter::once(0.0).chain(ways).collect()

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::{BESIDE, joined};
+use super::{around, joined};
 use crate::recording::mean;
 use crate::spread::deviation;
 
@@ -26,8 +26,7 @@ pub(crate) fn give_back(smooth: &mut [f64], measured: &[f64]) -> Vec<Range<usize
     for i in &lost {
         smooth[*i] = measured[*i];
     }
-    let around = |i: usize| i.saturating_sub(BESIDE)..(i + BESIDE + 1).min(taken.len());
-    joined(lost.into_iter().map(around).collect())
+    joined(lost.into_iter().map(|i| around(i, taken.len())).collect())
 }
 
 #[cfg(test)]

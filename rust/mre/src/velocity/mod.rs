@@ -116,7 +116,7 @@ impl Derived {
     pub fn unresolved(&self, time: &[f64], displacement: &[f64]) -> Vec<Range<usize>> {
         let noise = self.smoothing.variance(displacement, &self.displacement).sqrt();
         let missed = differences::missed(time, displacement, &self.velocity, noise, TURNED);
-        let around = |(i, _): (usize, f64)| i.saturating_sub(BESIDE)..(i + BESIDE + 1).min(time.len());
+        let around = |(i, _): (usize, f64)| around(i, time.len());
         // As far as a window has a slight bend in it.
         let across = |i: &usize| {
             let own = |(part, window): &(Range<usize>, Window)| part.contains(i).then_some(window.half);
@@ -125,6 +125,11 @@ impl Derived {
         };
         joined(missed.into_iter().map(around).chain(self.slight.iter().map(across)).collect())
     }
+}
+
+/// A sample of so many whose slope is not resolved, and those beside it.
+fn around(i: usize, samples: usize) -> Range<usize> {
+    i.saturating_sub(BESIDE)..(i + BESIDE + 1).min(samples)
 }
 
 /// Mean step of times in s.
