@@ -35,7 +35,7 @@ pub(super) fn with_halves(recording: &Recording) -> Option<Recording> {
         name: recording.name().into(),
     })
     .ok()
-    .map(|halves| halves.with_past(recording.past()))
+    .map(|halves| halves.with_past(recording.past()).with_state_changed(recording.state_change()))
 }
 
 fn mean(values: &[f64], i: usize) -> f64 {

@@ -18,6 +18,7 @@
 use super::operators::{play, stop};
 use super::{About, Effect, Scene, Sizes, ideal_above, ideal_below, order_within, orders, positive, within};
 use crate::kernel::hysteretic;
+use crate::kernel::intervals::Plan;
 use crate::parameter::{Parameter, Scale};
 
 /// Elements of a distribution of yields.
@@ -59,12 +60,8 @@ fn less(series: &[f64], by: &[f64]) -> Vec<f64> {
 /// Normalised hysteretic variable for a shape `[rho, sigma, n]`.
 pub(super) fn bouc_wen(scene: &Scene, shape: &[f64]) -> Vec<f64> {
     let mut w = vec![0.0; scene.len()];
-    hysteretic::trace(
-        [scene.time, scene.displacement, scene.velocity],
-        [shape[0], shape[1], shape[2]],
-        0.0,
-        &mut w,
-    );
+    let plan = Plan::of(scene.time, scene.displacement, scene.velocity);
+    hysteretic::trace(&plan, [shape[0], shape[1], shape[2]], 0.0, &mut w);
     // Samples too far apart for these parameters show nothing of it.
     if w.iter().all(|w| w.is_finite()) { w } else { vec![0.0; scene.len()] }
 }

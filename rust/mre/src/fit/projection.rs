@@ -1,6 +1,7 @@
 //! Variable projection (Golub and Pereyra 1973, <https://doi.org/10.1137/0710036>): for given shapes the
 //! best coefficients in their box are known exactly, so that only the shapes are searched.
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use nalgebra::{DMatrix, DVector};
@@ -22,7 +23,7 @@ pub(crate) struct Projection<'a> {
     shapes: Vec<usize>,
     pub(super) coefficients: Vec<usize>,
     /// For the simulations of Bouc-Wen, one a recording: its plan, and the products that no shape changes.
-    pub(super) lanes: Vec<(Plan, Gram)>,
+    pub(super) lanes: Vec<(Arc<Plan>, Gram)>,
     /// For the sinh model, which needs neither columns nor their products.
     curve: Option<Curve<'a>>,
     cancel: &'a AtomicBool,
@@ -36,7 +37,7 @@ impl<'a> Projection<'a> {
         let is_shape = problem.law().shapes(problem.model());
         let places = |wanted: bool| (0..is_shape.len()).filter(|i| is_shape[*i] == wanted).collect();
         let lanes = if problem.model().name() == "bouc_wen" {
-            problem.recordings().iter().map(|r| (Plan::new(r), fixed_products(r))).collect()
+            problem.recordings().iter().map(|r| (Arc::clone(r.plan()), fixed_products(r))).collect()
         } else {
             Vec::new()
         };
@@ -50,7 +51,7 @@ impl<'a> Projection<'a> {
             problem: self.problem,
             shapes: self.shapes.clone(),
             coefficients: self.coefficients.clone(),
-            lanes: self.lanes.iter().map(|(plan, fixed)| (plan.rough(), fixed.clone())).collect(),
+            lanes: self.lanes.iter().map(|(plan, fixed)| (Arc::new(plan.rough()), fixed.clone())).collect(),
             curve: None, // only lanes have rough simulations
             cancel: self.cancel,
         }

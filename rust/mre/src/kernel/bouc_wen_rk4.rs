@@ -5,14 +5,12 @@ use std::sync::Arc;
 use super::dispatch::{self, Isa, for_every_isa};
 use super::elementary::fma;
 use super::hysteretic::stiffness;
-use super::intervals::Plan;
 use super::lanes::{LANES, Lanes};
 use crate::recording::Recording;
 
 /// A recording made ready for simulations.
 #[derive(Debug, Clone)]
 pub(crate) struct BoucWenRk4 {
-    plan: Plan,
     recording: Arc<Recording>,
     isa: Isa,
 }
@@ -30,7 +28,7 @@ struct Block {
 impl BoucWenRk4 {
     /// Prepare a recording with a force.
     pub(crate) fn new(recording: Arc<Recording>) -> Self {
-        Self { plan: Plan::new(&recording), recording, isa: dispatch::best() }
+        Self { recording, isa: dispatch::best() }
     }
 
     /// Rate that orders candidates by the cost of their simulation.
@@ -44,7 +42,7 @@ impl BoucWenRk4 {
     pub(crate) fn sums_of_squares(&self, rows: &[&[f64]], out: &mut [f64]) {
         let row = |l: usize| rows[l.min(rows.len() - 1)];
         let column = |k: usize| std::array::from_fn(|l| row(l)[k]);
-        let lanes = Lanes::new(&self.plan, |l| [row(l)[3], row(l)[4], row(l)[5]]);
+        let lanes = Lanes::new(self.recording.plan(), |l| [row(l)[3], row(l)[4], row(l)[5]]);
         let block = Block { c0: column(0), kx: column(1), kw: column(2), f0: column(6), lanes };
         let sums = simulate(self.isa, self, &block);
         for (l, value) in out.iter_mut().enumerate() {
@@ -61,7 +59,7 @@ fn simulate_generic<const FUSED: bool>(on: &BoucWenRk4, block: &Block) -> [f64; 
     let mut sums = [0.0; LANES];
     let (velocity, displacement) = (on.recording.velocity(), on.recording.displacement());
     let Some(force) = on.recording.force() else { return [f64::INFINITY; LANES] };
-    let (scored, n) = (on.recording.scored(), force.len());
+    let (plan, scored, n) = (on.recording.plan(), on.recording.scored(), force.len());
     for i in 0..n {
         let (v0, x, f) = (velocity[i], displacement[i], force[i]);
         if scored.contains(&i) {
@@ -71,7 +69,7 @@ fn simulate_generic<const FUSED: bool>(on: &BoucWenRk4, block: &Block) -> [f64; 
                 sums[l] = fma::<FUSED>(r, r, sums[l]);
             }
         }
-        block.lanes.advance::<FUSED>(&mut w, on.plan.after(i));
+        block.lanes.advance::<FUSED>(&mut w, plan.after(i));
     }
     sums
 }

@@ -5,7 +5,7 @@
 const STEP: f64 = 0.02;
 /// A state so near the yield is the yield.
 const NEAR: f64 = 1e-6;
-/// Most nodes: where it hardly moves any more.
+/// Most nodes on either side of the middle: where it hardly moves any more.
 const MOST: usize = 20_000;
 /// Newton steps, with the slope of the nodes, from a line to the state on a climb: as exact as its nodes.
 const NEWTON: usize = 3;
@@ -19,15 +19,25 @@ pub(crate) struct Climb {
 impl Climb {
     /// The climb with a slope of the state that follows from the state; it is zero at the yield.
     pub(crate) fn new(slope: impl Fn(f64) -> f64) -> Self {
-        let mut nodes = Vec::new();
-        let mut u = -1.0;
-        while u < 1.0 - NEAR && nodes.len() < MOST {
+        let after = |u: f64, step: f64| {
             let a = slope(u);
-            nodes.push((u, a));
-            let b = slope(u + 0.5 * STEP * a);
-            let c = slope(u + 0.5 * STEP * b);
-            let d = slope(u + STEP * c);
-            u += STEP * (a + 2.0 * b + 2.0 * c + d) / 6.0;
+            let b = slope(u + 0.5 * step * a);
+            let c = slope(u + 0.5 * step * b);
+            let d = slope(u + step * c);
+            u + step * (a + 2.0 * b + 2.0 * c + d) / 6.0
+        };
+        // From the middle, where a slope may have a kink.
+        let mut nodes = vec![(0.0, slope(0.0))];
+        let mut u = 0.0;
+        while u > -1.0 && nodes.len() < MOST {
+            u = after(u, -STEP);
+            nodes.push((u, slope(u)));
+        }
+        nodes.reverse();
+        u = after(0.0, STEP);
+        while u < 1.0 - NEAR && nodes.len() < 2 * MOST {
+            nodes.push((u, slope(u)));
+            u = after(u, STEP);
         }
         nodes.push((u.min(1.0), 0.0));
         Self { nodes }
@@ -120,5 +130,23 @@ mod tests {
         let back = climb.states(1.0, &[0.0, 0.5, 1.0, 0.2])[3];
         let wanted = -(1.0 - (1.0 + turned) * (-0.8_f64).exp());
         assert!((back - wanted).abs() < 1e-7, "{back} {wanted}");
+    }
+
+    #[test]
+    fn a_slope_with_a_kink_in_the_middle_is_exact_on_both_sides() {
+        // Bouc-Wen with n = 1: du/dp = 1 - r u below the middle and 1 - u above.
+        let r = 2.0 * 0.8 - 1.0;
+        let climb = Climb::new(|u| 1.0 - u.abs() * if u < 0.0 { -r } else { 1.0 });
+        let down: Vec<f64> = (0..=100).map(|i| -0.01 * f64::from(i)).collect();
+        let turned = climb.states(1.0, &down)[100];
+        assert!((turned + 1.0 - (-1.0_f64).exp()).abs() < 1e-8, "{turned}");
+        let middle = (1.0 - r * turned).ln() / r;
+        let back: Vec<f64> =
+            down.iter().copied().chain((1..=100).map(|i| -1.0 + 0.02 * f64::from(i))).collect();
+        for (path, u) in back.iter().zip(climb.states(1.0, &back)).skip(101) {
+            let far = path + 1.0 - middle;
+            let wanted = if far < 0.0 { (1.0 - (-r * far).exp()) / r } else { 1.0 - (-far).exp() };
+            assert!((u - wanted).abs() < 1e-8, "{path} {u} {wanted}");
+        }
     }
 }

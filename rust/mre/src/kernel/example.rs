@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::recording::{Condition, Recording, Series};
 
 /// 503 samples (no multiple of any number of lanes) of a sine with a stiffening force.
-pub(super) fn recording() -> Arc<Recording> {
+pub(crate) fn recording() -> Arc<Recording> {
     let time: Vec<f64> = (0..503).map(|i| f64::from(i) / 100.0).collect();
     let displacement: Vec<f64> = time.iter().map(|t| 4.0 * (6.0 * t).sin()).collect();
     let force = displacement.iter().zip(&time).map(|(x, t)| 9.0 * x.sinh() + (70.0 * t).sin()).collect();

@@ -103,8 +103,7 @@ pub(super) fn rk4<const FUSED: bool, P: Power, const N: usize>(
 
 /// The hysteretic variable at every sample, from a value at the first; infinite throughout where the samples are too
 /// far apart for these parameters.
-pub(crate) fn trace([time, x, velocity]: [&[f64]; 3], shape: [f64; 3], start: f64, out: &mut [f64]) {
-    let plan = Plan::of(time, x, velocity);
+pub(crate) fn trace(plan: &Plan, shape: [f64; 3], start: f64, out: &mut [f64]) {
     let stiffness = stiffness(shape);
     if plan.too_coarse(stiffness) {
         out.fill(f64::INFINITY);

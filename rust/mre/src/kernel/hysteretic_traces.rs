@@ -15,12 +15,8 @@ const NARROW: usize = 8;
 /// A motion and the shapes `[rho, sigma, n]` of one trace.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Motion<'a> {
-    /// s.
-    pub(crate) time: &'a [f64],
-    /// mm.
-    pub(crate) displacement: &'a [f64],
-    /// mm/s.
-    pub(crate) velocity: &'a [f64],
+    /// Times between its samples.
+    pub(crate) plan: &'a Plan,
     /// Shapes.
     pub(crate) shape: [f64; 3],
     /// The hysteretic variable at the first sample.
@@ -37,7 +33,7 @@ fn traces_on(isa: Isa, of: &[Motion]) -> Vec<Vec<f64>> {
     // Alike in length and sub-steps, a block wastes no lane.
     let mut order: Vec<usize> = (0..of.len()).collect();
     order.sort_by(|a, b| {
-        let key = |i: usize| (stiffness(of[i].shape), of[i].time.len());
+        let key = |i: usize| (stiffness(of[i].shape), of[i].plan.len());
         let ((s, n), (t, m)) = (key(*a), key(*b));
         s.total_cmp(&t).then(n.cmp(&m)).then(a.cmp(b))
     });
@@ -56,20 +52,19 @@ fn traces_on(isa: Isa, of: &[Motion]) -> Vec<Vec<f64>> {
 }
 
 /// One trace to be made.
-struct Lane {
+struct Lane<'a> {
     shape: [f64; 3],
     start: f64,
-    plan: Plan,
+    plan: &'a Plan,
     stiffness: f64,
     hopeless: bool,
 }
 
-impl Lane {
-    fn new(motion: &Motion) -> Self {
-        let plan = Plan::of(motion.time, motion.displacement, motion.velocity);
-        let stiffness = stiffness(motion.shape);
+impl<'a> Lane<'a> {
+    fn new(&Motion { plan, shape, start }: &Motion<'a>) -> Self {
+        let stiffness = stiffness(shape);
         let hopeless = plan.too_coarse(stiffness);
-        Self { shape: motion.shape, start: motion.start, plan, stiffness, hopeless }
+        Self { shape, start, plan, stiffness, hopeless }
     }
 
     /// Intervals from a sample to the next; none where all is done.
@@ -143,7 +138,7 @@ mod tests {
     use super::*;
 
     /// Motions of several lengths with shapes from smooth to stiff, one beyond all sub-steps.
-    fn motions() -> Vec<([Vec<f64>; 3], [f64; 3])> {
+    fn motions() -> Vec<(Plan, [f64; 3])> {
         let shapes = [
             [0.3, 0.8, 1.7],
             [0.3, 0.6, 1.0],
@@ -157,9 +152,9 @@ mod tests {
                 let n = 100 + 37 * (k as usize % 5);
                 let time: Vec<f64> = (0..n).map(|i| i as f64 / (100.0 + f64::from(k % 3))).collect();
                 let rate = 3.0 + f64::from(k);
-                let displacement = time.iter().map(|t| 20.0 / rate * (rate * t).sin()).collect();
-                let velocity = time.iter().map(|t| 20.0 * (rate * t).cos()).collect();
-                ([time, displacement, velocity], shapes[k as usize % shapes.len()])
+                let displacement: Vec<f64> = time.iter().map(|t| 20.0 / rate * (rate * t).sin()).collect();
+                let velocity: Vec<f64> = time.iter().map(|t| 20.0 * (rate * t).cos()).collect();
+                (Plan::of(&time, &displacement, &velocity), shapes[k as usize % shapes.len()])
             })
             .collect()
     }
@@ -169,20 +164,14 @@ mod tests {
         let motions = motions();
         let jobs: Vec<Motion> = motions
             .iter()
-            .map(|([time, displacement, velocity], shape)| Motion {
-                time,
-                displacement,
-                velocity,
-                shape: *shape,
-                start: 0.5 - shape[1],
-            })
+            .map(|(plan, shape)| Motion { plan, shape: *shape, start: 0.5 - shape[1] })
             .collect();
         for isa in dispatch::available() {
             let together = traces_on(isa, &jobs);
             for (job, found) in jobs.iter().zip(&together) {
                 assert_eq!(traces_on(isa, &[*job])[0], *found, "{isa:?} {:?}", job.shape);
-                let mut alone = vec![0.0; job.time.len()];
-                trace([job.time, job.displacement, job.velocity], job.shape, job.start, &mut alone);
+                let mut alone = vec![0.0; job.plan.len() + 1];
+                trace(job.plan, job.shape, job.start, &mut alone);
                 let alike = alone.iter().zip(found).all(|(a, b)| a == b || (a - b).abs() < 1e-12);
                 assert!(alike, "{isa:?} {:?}", job.shape);
             }

@@ -3,7 +3,6 @@
 use super::halfway::middles;
 use super::interval::Interval;
 use super::jumps::jumps;
-use crate::recording::Recording;
 use crate::spread::deviation;
 
 /// More sub-steps than this between two samples: the samples are too far apart for the candidate.
@@ -24,10 +23,6 @@ pub(crate) struct Plan {
 }
 
 impl Plan {
-    pub(crate) fn new(recording: &Recording) -> Self {
-        Self::of(recording.time(), recording.displacement(), recording.velocity())
-    }
-
     pub(crate) fn of(time: &[f64], displacement: &[f64], velocity: &[f64]) -> Self {
         let jumps = jumps(time, displacement, velocity);
         let mut corners = jumps.iter().peekable();

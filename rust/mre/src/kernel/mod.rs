@@ -13,7 +13,7 @@ pub(crate) mod climb;
 mod dispatch;
 pub(crate) mod elementary;
 #[cfg(test)]
-mod example;
+pub(crate) mod example;
 pub(crate) mod filter;
 pub(crate) mod halfway;
 pub(crate) mod hysteretic;

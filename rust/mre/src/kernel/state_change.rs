@@ -108,36 +108,36 @@ impl Slip {
 
 /// The hysteretic variable at every sample, from rest, for shapes `[rho, sigma, n]` under a current.
 pub(crate) fn trace(
-    [time, x, velocity]: [&[f64]; 3],
+    (plan, x): (&Plan, &[f64]),
     current: &Condition,
     [rho, sigma, n]: [f64; 3],
     StateChange { slip, wear, pace }: StateChange,
 ) -> Vec<f64> {
-    let pace = pace.map(|pace| pace.under(current, time.len()));
+    let pace = pace.map(|pace| pace.under(current, x.len()));
     let bare = |u: f64| 1.0 - u.abs().powf(n) * (1.0 + sigma * (u.signum() - 1.0));
     let climb = Climb::new(|u| bare(u) * slip.map_or(1.0, |slip| slip.at(u)));
     let felt = |from: f64, far: f64| slip.map_or(far, |slip| slip.felt(from, far));
     let mut on = climb.at_rest(rho);
     let (mut w, mut dissipated) = (0.0, 0.0);
     let mut go = |from: f64, far: f64, pace: f64| {
+        if wear == Wear::default() {
+            w = on.moved(pace * felt(from, far));
+            return w;
+        }
         let halfway = (dissipated + 0.5 * w * far).max(0.0);
         let yields = (1.0 + wear.strength * halfway).powf(-1.0 / n);
-        let mut beyond = 0.0;
-        if wear != Wear::default() {
-            let rho = rho / (yields * (1.0 + wear.stiffness * halfway));
-            let state: f64 = w / yields;
-            let within = state.clamp(-1.0, 1.0);
-            // A yield that fell leaves the state beyond it, to which it comes back.
-            beyond = (state - within) * (-n * rho * pace * far.abs()).exp();
-            on.set(within, rho);
-        }
+        let rho = rho / (yields * (1.0 + wear.stiffness * halfway));
+        let state: f64 = w / yields;
+        let within = state.clamp(-1.0, 1.0);
+        // A yield that fell leaves the state beyond it, to which it comes back.
+        let beyond = (state - within) * (-n * rho * pace * far.abs()).exp();
+        on.set(within, rho);
         let next = yields * (on.moved(pace * felt(from, far)) + beyond);
         dissipated = (dissipated + 0.5 * (w + next) * far).max(0.0);
         w = next;
         w
     };
-    let plan = Plan::of(time, x, velocity);
-    let mut found = Vec::with_capacity(time.len());
+    let mut found = Vec::with_capacity(x.len());
     found.push(0.0);
     for i in 0..plan.len() {
         let (mut at, mut state) = (x[i], found[i]);
@@ -172,13 +172,12 @@ mod tests {
     #[test]
     fn without_a_slip_it_is_the_hysteretic_variable() {
         let [time, x, v] = motion(400.0);
+        let plan = Plan::of(&time, &x, &v);
         for shape in [[0.3, 0.8, 1.7], [0.5, 0.5, 1.0], [0.2, 1.4, 2.0]] {
             let mut plain = vec![0.0; x.len()];
-            hysteretic::trace([&time, &x, &v], shape, 0.0, &mut plain);
-            let off = largest_difference(
-                &plain,
-                &trace([&time, &x, &v], &Condition::Missing, shape, StateChange::default()),
-            );
+            hysteretic::trace(&plan, shape, 0.0, &mut plain);
+            let found = trace((&plan, &x), &Condition::Missing, shape, StateChange::default());
+            let off = largest_difference(&plain, &found);
             assert!(off < 3e-4, "{shape:?} {off}");
         }
     }
@@ -188,18 +187,20 @@ mod tests {
         let [time, mut x, v] = motion(400.0);
         let shape = [0.6, 0.7, 1.0];
         let change = StateChange { wear: Wear { strength: 0.01, stiffness: 0.0 }, ..StateChange::default() };
-        let still = trace([&time, &x, &v], &Condition::Missing, shape, change);
+        let trace = |x: &[f64]| trace((&Plan::of(&time, x, &v), x), &Condition::Missing, shape, change);
+        let still = trace(&x);
         for (i, x) in x.iter_mut().enumerate() {
             *x += if i % 2 == 0 { 0.02 } else { -0.02 };
         }
         // Its path is less exact than one that meets an exact displacement.
-        let moved = largest_difference(&still, &trace([&time, &x, &v], &Condition::Missing, shape, change));
+        let moved = largest_difference(&still, &trace(&x));
         assert!(moved < 1e-5, "{moved}");
     }
 
     #[test]
     fn a_changed_state_stays_within_its_yield() {
         let [time, x, v] = motion(60.0);
+        let plan = Plan::of(&time, &x, &v);
         let slips = [
             None,
             Some(Slip::ByForce { depth: 0.97, width: 0.05, place: 0.5 }),
@@ -209,12 +210,8 @@ mod tests {
         for slip in slips {
             for wear in [Wear::default(), Wear { strength: 0.5, stiffness: 0.5 }] {
                 for shape in [[1e-3, 0.5, 1.0], [20.0, 2.0, 5.0], [1e6, 1.5, 1.0]] {
-                    let found = trace(
-                        [&time, &x, &v],
-                        &Condition::Missing,
-                        shape,
-                        StateChange { slip, wear, pace: None },
-                    );
+                    let change = StateChange { slip, wear, pace: None };
+                    let found = trace((&plan, &x), &Condition::Missing, shape, change);
                     assert!(found.iter().all(|w| w.abs() <= 1.0 + 1e-6), "{slip:?} {wear:?} {shape:?}");
                 }
             }
@@ -240,7 +237,7 @@ mod tests {
         ];
         for (slip, wear, pace) in changes {
             let change = StateChange { slip, wear, pace };
-            let found = trace([&time, &x, &v], &current, [rho, sigma, n], change);
+            let found = trace((&Plan::of(&time, &x, &v), &x), &current, [rho, sigma, n], change);
             // Euler's method at two hundredths of a step.
             let (mut w, mut e, mut off): (f64, f64, f64) = (0.0, 0.0, 0.0);
             for i in 1..time.len() {

@@ -76,7 +76,7 @@ impl Term for BoucWen {
             out.copy_from_slice(&trace);
         } else {
             let shape = [shape[0], shape[1], shape[2]];
-            hysteretic::trace(motion(recording), shape, recording.start(), out);
+            hysteretic::trace(recording.plan(), shape, recording.start(), out);
         }
     }
 
@@ -87,9 +87,7 @@ impl Term for BoucWen {
             .iter()
             .filter(|(recording, _)| recording.state_change().is_none())
             .map(|(recording, shape)| Motion {
-                time: recording.time(),
-                displacement: recording.displacement(),
-                velocity: recording.velocity(),
+                plan: recording.plan(),
                 shape: [shape[0], shape[1], shape[2]],
                 start: recording.start(),
             })
@@ -99,16 +97,16 @@ impl Term for BoucWen {
     }
 }
 
-/// Time, displacement and velocity.
-fn motion(recording: &Recording) -> [&[f64]; 3] {
-    [recording.time(), recording.displacement(), recording.velocity()]
-}
-
 /// The hysteretic variable under another law of its state, where the recording has one.
 fn changed(recording: &Recording, shape: &[f64]) -> Option<Vec<f64>> {
     let change = recording.state_change()?;
     let shape = [shape[0], shape[1], shape[2]];
-    Some(state_change::trace(motion(recording), recording.current(), shape, change))
+    Some(state_change::trace(
+        (recording.plan(), recording.displacement()),
+        recording.current(),
+        shape,
+        change,
+    ))
 }
 
 /// The same model in the notation of eq. 1 and 2, with the redundant A fixed at 1:

@@ -7,6 +7,7 @@ mod condition;
 mod cut;
 mod grid;
 mod past;
+mod ready;
 
 use std::ops::Range;
 
@@ -60,6 +61,7 @@ pub struct Recording {
     state_change: Option<StateChange>,
     start: f64,
     past: Option<Past>,
+    ready: ready::Ready,
 }
 
 impl Recording {
@@ -83,7 +85,8 @@ impl Recording {
             (derived.velocity, Some(window))
         };
         let scored = 0..velocity.len();
-        Ok(Self { series, velocity, velocity_window, scored, state_change: None, start: 0.0, past: None })
+        let (state_change, start, past, ready) = (None, 0.0, None, ready::Ready::default());
+        Ok(Self { series, velocity, velocity_window, scored, state_change, start, past, ready })
     }
 
     /// Number of samples.
@@ -205,7 +208,7 @@ impl Recording {
         let times = |values: &[f64]| values.iter().map(|v| factor * v).collect();
         let displacement = times(&self.series.displacement);
         let series = Series { displacement, force: None, ..self.series.clone() };
-        Self { series, velocity: times(&self.velocity), ..self.clone() }
+        Self { series, velocity: times(&self.velocity), ready: ready::Ready::default(), ..self.clone() }
     }
 
     /// The same recording at another current in A.
@@ -231,6 +234,7 @@ impl Recording {
         let mut seen = self.clone();
         seen.series.displacement = displacement;
         seen.velocity = velocity;
+        seen.ready = ready::Ready::default();
         if let Some(current) = current {
             seen.series.current = Condition::Series(current);
         }

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use super::excitation::Signal;
 use crate::assembly::{Assembly, Base, Campaign, Doubts, OnAnother};
 use crate::diagnose::candidates::Candidate;
+use crate::kernel::state_change::StateChange;
 use crate::recording::{Condition, Recording, Series};
 
 /// Models that are simulated side by side: more would take much memory.
@@ -44,7 +45,9 @@ impl World {
             temperature: like.temperature().clone(),
             name: String::new(),
         })
-        .ok()?;
+        .ok()?
+        // As long a way between two samples as there may be asks for no more work, and has no error.
+        .with_state_changed(Some(StateChange::default()));
         let mut recordings = known.recordings().to_vec();
         // On the specimen of all others, where they are of one: the last knows what was before.
         let one_specimen = recordings.iter().all(|recording| recording.past().is_some());

@@ -81,7 +81,7 @@ fn the_bouc_wen_law_is_that_of_the_base_model() {
     let mut wanted = vec![0.0; stage.force.len()];
     let shape = [1.3, 0.7, 1.8];
     let seen = &stage.recording;
-    hysteretic::trace([seen.time(), seen.displacement(), seen.velocity()], shape, 0.0, &mut wanted);
+    hysteretic::trace(seen.plan(), shape, 0.0, &mut wanted);
     assert_eq!(column("hysteresis", "Bouc-Wen", &stage.scene(), &shape), wanted);
 }
 

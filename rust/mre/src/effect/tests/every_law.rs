@@ -8,6 +8,7 @@ use rand_core::{Rng, SeedableRng};
 
 use super::super::{CATALOGUE, Effect, Scene};
 use super::Stage;
+use crate::kernel::intervals::Plan;
 use crate::kernel::state_change::{StateChange, trace};
 use crate::parameter::{Parameter, Scale};
 use crate::recording::Condition;
@@ -90,7 +91,8 @@ fn made(effect: &dyn Effect, scene: &Scene, shape: &[f64]) -> Vec<Vec<f64>> {
 /// The state of a hysteretic device.
 fn state_of(scene: &Scene, change: StateChange) -> Vec<f64> {
     let current = scene.current.map_or(Condition::Missing, |current| Condition::Series(current.to_vec()));
-    trace([scene.time, scene.displacement, scene.velocity], &current, [0.5, 0.7, 1.4], change)
+    let plan = Plan::of(scene.time, scene.displacement, scene.velocity);
+    trace((&plan, scene.displacement), &current, [0.5, 0.7, 1.4], change)
 }
 
 fn inside(p: &Parameter, u: f64) -> f64 {
