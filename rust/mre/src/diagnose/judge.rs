@@ -1,5 +1,6 @@
 //! Judgement of a model that was found: what is left beside it, and whether its names are to be trusted.
 
+use super::agreed::{Agreed, agreed};
 use super::begin::Begun;
 use super::candidates::Candidate;
 use super::exchange::CLEAR;
@@ -104,6 +105,8 @@ fn alone<'a>(
     let oscillating = last.as_ref().and_then(Null::oscillating).map_or(Mismatch::NONE, |o| o.mismatch);
     let linked = last.as_ref().map_or(1.0, Null::linked);
     let own = begun.assembly.effects().len()..named.assembly.effects().len();
+    let agreed = last.as_ref().map_or(Agreed::NONE, |null| agreed(null, &named, data, own.start));
+    let in_step = last.as_ref().map_or(Mismatch::NONE, Null::in_step);
     let against = match any_strained(&named, data, own) {
         _ if surpassed => Against::Surpassed,
         true => Against::AtTheEnd,
@@ -116,6 +119,8 @@ fn alone<'a>(
         wandering,
         odd,
         oscillating,
+        agreed,
+        in_step,
         uneven,
         linked,
         explained,

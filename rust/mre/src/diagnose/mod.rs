@@ -6,6 +6,7 @@
 
 mod above;
 mod absorbed;
+mod agreed;
 mod alternatives;
 mod autoregression;
 mod begin;
@@ -28,6 +29,7 @@ mod firsts;
 mod gaps;
 mod held;
 mod hum;
+mod in_step;
 mod intervals;
 mod joint;
 mod judge;

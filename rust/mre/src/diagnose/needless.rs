@@ -10,7 +10,7 @@ use super::search::{Named, Search};
 use super::strained::any_strained;
 
 /// A model with those of its effects, by place, that are kept, refitted.
-fn keeping<'a>(named: &Named<'a>, data: Data, kept: impl Fn(usize) -> bool) -> Candidate<'a> {
+pub(super) fn keeping<'a>(named: &Named<'a>, data: Data, kept: impl Fn(usize) -> bool) -> Candidate<'a> {
     let sizes = named.assembly.campaign().sizes();
     let shapes = named.assembly.physical(&named.fitted.unit);
     let (base, mut rest) = shapes.split_at(named.assembly.base_shapes());

@@ -101,6 +101,11 @@ impl<'a> Null<'a> {
         self.data.monitor.broken_off()
     }
 
+    /// What the model is fitted to.
+    pub(super) fn data(&self) -> Data<'a> {
+        self.data
+    }
+
     /// The noise under which columns are projected.
     pub(super) fn noise(&self) -> &Noise {
         self.data.noise

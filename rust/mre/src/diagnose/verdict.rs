@@ -1,5 +1,6 @@
 //! Verdict: what the tests beside the final model say.
 
+use super::agreed::Agreed;
 use super::candidates::by_effect;
 use super::missing::Mismatch;
 use super::search::{Named, WAYS};
@@ -14,7 +15,7 @@ const FORM: [f64; 2] = [0.02, 0.0025];
 const SEEN: [f64; 2] = [0.005, 0.1];
 
 /// Tests of any mismatch.
-const OF_ANY: f64 = 6.0;
+const OF_ANY: f64 = 7.0;
 
 /// Names are doubted only where the rest is beyond chance by far: a small one may be the noise's.
 pub(super) const BEYOND_CHANCE: f64 = 1e-3;
@@ -100,6 +101,10 @@ pub(super) struct Tests {
     pub(super) odd: Mismatch,
     /// A stiffness or a strength that oscillates, beside the final model.
     pub(super) oscillating: Mismatch,
+    /// Sizes of the effects that differ from recording to recording, or from part to part.
+    pub(super) agreed: Agreed,
+    /// What is left goes on where the force is large.
+    pub(super) in_step: Mismatch,
     /// The size of what is left, over the motion.
     pub(super) uneven: Uneven,
     /// Chance that its neighbouring samples go together over the motion.
@@ -118,12 +123,18 @@ pub(super) struct Tests {
 
 impl Evidence {
     pub(super) fn new(tests: &Tests, named: &Named, plain: bool, false_alarm: f64) -> Self {
-        let Tests { first, rest, smooth, wandering, odd, oscillating, uneven, linked, .. } = *tests;
+        let Tests {
+            first, rest, smooth, wandering, odd, oscillating, agreed, in_step, uneven, linked, ..
+        } = *tests;
         let Tests { explained, change, noise, against, nothing_left, .. } = *tests;
         let catalogue = by_effect(&named.scores);
         let holm = catalogue.iter().map(|(_, p)| *p).fold(1.0, f64::min) * catalogue.len().max(1) as f64;
-        let of_places = wandering.p_value.min(odd.p_value).min(oscillating.p_value);
-        let any = OF_ANY * rest.cautious().min(smooth).min(of_places).min(linked);
+        let of_places = [wandering, odd, oscillating, agreed.mismatch, in_step]
+            .map(|m| m.p_value)
+            .into_iter()
+            .fold(1.0, f64::min);
+        let tests = OF_ANY + agreed.tests as f64;
+        let any = tests * rest.cautious().min(smooth).min(of_places).min(linked);
         let p_rest = if nothing_left { 1.0 } else { (WAYS * any.min(holm)).min(1.0) };
         let gain = named.next.as_ref().map_or(0.0, |n| (named.fitted.left - n.fitted.left).max(0.0));
         let swallowed = if uneven.p_value < PLAINLY_UNEVEN { uneven.swallowed } else { 0.0 };
@@ -132,6 +143,8 @@ impl Evidence {
             .max(wandering.excess())
             .max(odd.excess())
             .max(oscillating.excess())
+            .max(agreed.mismatch.excess())
+            .max(in_step.excess())
             .max(gain)
             .max(swallowed);
         let share = if left > 0.0 { left / (left + explained) } else { 0.0 };
