@@ -77,6 +77,8 @@ def diagnosed(share: Share | None, times: float, seed: int, memory: float = 0.9)
 def test_it_is_seen_and_gets_no_name(share: Share, seed: int) -> None:
     found = diagnosed(share, 1.5, seed)
     assert found.verdict == "unexplained", [e.id for e in found.effects]
+    assert found.unknown is not None
+    assert found.unknown["depends_on"][0]["on"] == "moments"
 
 
 @pytest.mark.parametrize("memory", [0.0, 0.97, 0.995])

@@ -178,6 +178,7 @@ _ON = {
     "dissipated_power": "the power dissipated lately",
     "time": "the time in the recording",
     "oscillation": "a stiffness or strength that oscillates at {:.3g} Hz",
+    "moments": "a stiffness or strength that comes and goes at moments of its own",
     "current": "the coil current",
     "recording": "something that differs from recording to recording",
 }

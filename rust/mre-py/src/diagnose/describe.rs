@@ -96,6 +96,7 @@ fn unknown(u: &Unknown) -> Value {
                 On::Heat => ("dissipated_power", None),
                 On::Time => ("time", None),
                 On::Oscillation(frequency) => ("oscillation", Some(frequency)),
+                On::Moments => ("moments", None),
                 On::Current => ("current", None),
                 On::Recording => ("recording", None),
             };

@@ -34,6 +34,8 @@ pub enum On {
     Time,
     /// A wave in time of this frequency, Hz.
     Oscillation(f64),
+    /// A stiffness or a strength that comes and goes at moments of its own.
+    Moments,
     /// Coil current.
     Current,
     /// Something that differs from recording to recording.

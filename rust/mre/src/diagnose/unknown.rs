@@ -24,7 +24,7 @@ const RIDGE: f64 = 1e-2;
 pub struct Dependence {
     /// The thing.
     pub on: On,
-    /// Share of what all features, or a wave in time, take off that this thing alone does.
+    /// Share of what all features, a wave in time, or what comes and goes, take off that this thing alone does.
     pub share: f64,
 }
 
@@ -62,7 +62,11 @@ pub(super) fn describe(null: &Null) -> Unknown {
     let generic = null.generic();
     let oscillating = null.oscillating().filter(|found| found.mismatch.p_value < BEYOND_CHANCE);
     let of_waves = oscillating.map_or(0.0, |found| found.mismatch.excess());
-    let all = generic.mismatch().excess().max(of_waves).max(f64::MIN_POSITIVE);
+    // What oscillates comes and goes too.
+    let in_step = null.in_step();
+    let passes = oscillating.is_none() && in_step.p_value < BEYOND_CHANCE;
+    let of_moments = if passes { in_step.excess() } else { 0.0 };
+    let all = generic.mismatch().excess().max(of_waves).max(of_moments).max(f64::MIN_POSITIVE);
     let share = |excess: f64| (excess / all).min(1.0);
     let mut depends_on: Vec<Dependence> = generic
         .things()
@@ -72,6 +76,7 @@ pub(super) fn describe(null: &Null) -> Unknown {
     depends_on.extend(
         oscillating.map(|found| Dependence { on: On::Oscillation(found.frequency), share: share(of_waves) }),
     );
+    depends_on.extend(passes.then_some(Dependence { on: On::Moments, share: share(of_moments) }));
     depends_on.sort_by(|a, b| b.share.total_cmp(&a.share));
     let strongest = depends_on.first().map_or(0.0, |d| d.share);
     depends_on.retain(|d| d.share > 0.0 && d.share >= WORTH_NAMING * strongest);
