@@ -37,7 +37,9 @@ impl Agreed {
 pub(super) fn agreed(beside: &Null, named: &Named, data: Data, first: usize) -> Agreed {
     let effects = named.assembly.effects();
     let recordings = named.assembly.campaign().recordings().len();
-    if recordings > MOST_RECORDINGS || beside.broken_off() {
+    // The changes are those on the motions as they are: what their noise does to such columns is not known.
+    let shaken = beside.changes().next().is_some();
+    if recordings > MOST_RECORDINGS || shaken || beside.broken_off() {
         return Agreed::NONE;
     }
     let moves = |place: &usize| effects[*place].follows_the_motion() && !effects[*place].of_the_measurement();
@@ -59,7 +61,7 @@ impl Null<'_> {
     /// What a change of the force in N, by recording, takes off that has its own size in each of so many parts.
     fn sizes_apart(&self, change: &[Vec<f64>], parts: usize) -> Mismatch {
         let count = parts * change.len();
-        let projected = self.project(count, |_, r| {
+        let projected = self.project_as_they_are(count, |_, r| {
             let cut = equal_parts(&change[r], parts);
             (0..parts)
                 .map(|k| {

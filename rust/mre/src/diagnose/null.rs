@@ -96,6 +96,11 @@ impl<'a> Null<'a> {
         self.shaken.iter().map(Shaken::change).chain(&self.more)
     }
 
+    /// The model on motions with more of their noise.
+    pub(super) fn shaken_views(&self) -> impl Iterator<Item = View<'_, 'a>> {
+        self.shaken.iter().map(Shaken::view)
+    }
+
     /// True where the search was broken off.
     pub(super) fn broken_off(&self) -> bool {
         self.data.monitor.broken_off()

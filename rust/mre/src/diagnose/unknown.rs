@@ -64,7 +64,9 @@ pub(super) fn describe(null: &Null) -> Unknown {
     let of_waves = oscillating.map_or(0.0, |found| found.mismatch.excess());
     // What oscillates comes and goes too.
     let in_step = null.in_step();
-    let passes = oscillating.is_none() && in_step.p_value < BEYOND_CHANCE;
+    let passes = oscillating.is_none()
+        && in_step.p_value < BEYOND_CHANCE
+        && in_step.excess() > generic.mismatch().excess();
     let of_moments = if passes { in_step.excess() } else { 0.0 };
     let all = generic.mismatch().excess().max(of_waves).max(of_moments).max(f64::MIN_POSITIVE);
     let share = |excess: f64| (excess / all).min(1.0);

@@ -46,7 +46,7 @@ impl World {
             name: String::new(),
         })
         .ok()?
-        // As long a way between two samples as there may be asks for no more work, and has no error.
+        // A long way between two samples asks for no more work so, and has no error of sub-steps.
         .with_state_changed(Some(StateChange::default()));
         let mut recordings = known.recordings().to_vec();
         // On the specimen of all others, where they are of one: the last knows what was before.
