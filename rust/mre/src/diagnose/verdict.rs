@@ -14,6 +14,10 @@ const FORM: [f64; 2] = [0.02, 0.0025];
 /// So is a smaller one of a single effect that is plainly seen: above this share, and more than this share of the noise.
 const SEEN: [f64; 2] = [0.005, 0.1];
 
+/// Sizes of their own take off at least this share of what the effects explain: an inexact form has slightly another in
+/// every recording too.
+const APART: f64 = 0.1;
+
 /// Tests of any mismatch.
 const OF_ANY: f64 = 7.0;
 
@@ -127,6 +131,8 @@ impl Evidence {
             first, rest, smooth, wandering, odd, oscillating, agreed, in_step, uneven, linked, ..
         } = *tests;
         let Tests { explained, change, noise, against, nothing_left, .. } = *tests;
+        let apart = agreed.mismatch.excess() > APART * explained;
+        let agreed = if apart { agreed } else { Agreed::NONE };
         let catalogue = by_effect(&named.scores);
         let holm = catalogue.iter().map(|(_, p)| *p).fold(1.0, f64::min) * catalogue.len().max(1) as f64;
         let of_places = [wandering, odd, oscillating, agreed.mismatch, in_step]
