@@ -1,7 +1,6 @@
 //! Frequencies that a motion does not reach.
 
 use std::f64::consts::PI;
-use std::sync::Arc;
 
 use crate::assembly::Campaign;
 use crate::kernel::filter::dot;
@@ -14,15 +13,17 @@ const SOME: usize = 64;
 /// They reach up to this share of half the sampling rate: an anti-aliasing filter does what it likes above.
 const UP_TO: f64 = 0.6;
 
-/// Frequency of the fastest motion of a campaign, Hz: that of the sine with its root mean squares.
+/// Frequency of a motion, Hz: that of the sine with its root mean squares.
+pub(super) fn frequency(recording: &Recording) -> f64 {
+    let (x, v) = (recording.displacement(), recording.velocity());
+    let mean = x.iter().sum::<f64>() / x.len() as f64;
+    let squares = dot(x, x) - mean * mean * x.len() as f64;
+    if squares > 0.0 { (dot(v, v) / squares).sqrt() / (2.0 * PI) } else { 0.0 }
+}
+
+/// Frequency of the fastest motion of a campaign, Hz.
 pub(super) fn fastest(campaign: &Campaign) -> f64 {
-    let own = |recording: &Arc<Recording>| {
-        let (x, v) = (recording.displacement(), recording.velocity());
-        let mean = x.iter().sum::<f64>() / x.len() as f64;
-        let squares = dot(x, x) - mean * mean * x.len() as f64;
-        if squares > 0.0 { (dot(v, v) / squares).sqrt() / (2.0 * PI) } else { 0.0 }
-    };
-    campaign.recordings().iter().map(own).fold(0.0, f64::max)
+    campaign.recordings().iter().map(|recording| frequency(recording)).fold(0.0, f64::max)
 }
 
 /// Some half-cosines of `n` samples that a motion of this frequency, Hz, does not reach, evenly apart on a logarithmic

@@ -43,9 +43,13 @@ pub(super) fn agreed(beside: &Null, named: &Named, data: Data, first: usize) -> 
         return Agreed::NONE;
     }
     let moves = |place: &usize| effects[*place].follows_the_motion() && !effects[*place].of_the_measurement();
+    let tested: Vec<usize> = (first..effects.len()).filter(moves).collect();
+    if tested.is_empty() {
+        return Agreed::NONE;
+    }
     let whole = forces(&named.assembly, data, &named.fitted);
     let mut all: Vec<Mismatch> = Vec::new();
-    for place in (first..effects.len()).filter(moves) {
+    for place in tested {
         let Candidate { assembly, fitted } = keeping(named, data, |other| other != place);
         let without = forces(&assembly, data, &fitted);
         let less = |(a, b): (&Vec<f64>, Vec<f64>)| a.iter().zip(b).map(|(a, b)| a - b).collect();

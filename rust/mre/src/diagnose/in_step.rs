@@ -6,6 +6,7 @@
 //! those of any steady noise do not know the motion. How far they scatter follows from the autocovariance of the means. A noise
 //! with memory that is larger where the force is cannot be told from what is missing.
 
+use super::above::frequency;
 use super::candidates::residuals;
 use super::distribution::chi_square_tail;
 use super::gaps::LeftOut;
@@ -13,6 +14,7 @@ use super::missing::{MORE_CAUTION, Mismatch};
 use super::null::Null;
 use super::projection::View;
 use super::resolution::step_of;
+use super::shaken;
 use crate::kernel::filter::dot;
 
 /// Means in a cycle of the motion.
@@ -21,9 +23,6 @@ const IN_A_CYCLE: f64 = 32.0;
 const FEWEST: usize = 32;
 /// Longest lag of their autocovariance.
 const LONGEST: usize = 4096;
-/// Noise of a motion gives at most so much more than it is expected to: its size is known above the frequencies of the
-/// motion alone.
-const MOST_NOISE: f64 = 1.5;
 
 impl Null<'_> {
     /// Test whether what is left goes on where the force is large.
@@ -34,7 +33,7 @@ impl Null<'_> {
             return Mismatch::NONE;
         }
         let left = residuals(self.assembly(), self.data(), &self.point.fitted);
-        let shaken: Vec<View> = self.shaken_views().collect();
+        let views: Vec<View> = self.shaken_views().collect();
         let (mut sum, mut variance) = (0.0, 0.0);
         for (r, (left, local)) in left.iter().zip(&self.point.recordings).enumerate() {
             let campaign = self.assembly().campaign();
@@ -48,7 +47,7 @@ impl Null<'_> {
             let force = &local.force[scored.clone()];
             let mean = force.iter().sum::<f64>() / force.len() as f64;
             let strength: Vec<f64> = force.iter().map(|f| (f - mean).powi(2)).collect();
-            let cycle = cycle(recording.displacement(), recording.velocity()) * recording.sampling_rate();
+            let cycle = recording.sampling_rate() / frequency(recording);
             let together = ((cycle / IN_A_CYCLE).round() as usize).max(1);
             let mut counts = vec![true; left.len()];
             for gap in LeftOut::of(campaign, r).ranges {
@@ -62,7 +61,7 @@ impl Null<'_> {
                 let change = there.force[r][scored.clone()].iter().zip(force).map(|(a, b)| a - b);
                 means(&change.collect::<Vec<f64>>(), together)
             };
-            let noise: Vec<Vec<f64>> = shaken.iter().map(noise).collect();
+            let noise: Vec<Vec<f64>> = views.iter().map(noise).collect();
             if let Some((own, scatter)) =
                 in_step(&means(left, together), &means(&strength, together), &counts, &noise)
             {
@@ -76,14 +75,6 @@ impl Null<'_> {
         // Of one sign only.
         Mismatch { p_value: 0.5 * chi_square_tail(gain, 1), gain, freedom: 1 }
     }
-}
-
-/// Cycle of a motion in s: that of the sine with its root mean squares.
-fn cycle(x: &[f64], v: &[f64]) -> f64 {
-    let mean = x.iter().sum::<f64>() / x.len() as f64;
-    let squares = dot(x, x) - mean * mean * x.len() as f64;
-    let of_velocity = dot(v, v).max(f64::MIN_POSITIVE);
-    std::f64::consts::TAU * (squares.max(0.0) / of_velocity).sqrt()
 }
 
 /// Means over so many values, one after the other.
@@ -138,7 +129,7 @@ fn in_step(left: &[f64], strength: &[f64], counts: &[bool], noise: &[Vec<f64>]) 
     let of_any_size: f64 = own.iter().zip(&weights).map(|(p, w)| (p * w).powi(2)).sum();
     let variance = (0..lags).map(scatter).sum::<f64>().max(of_any_size);
     let of_noise = noise.iter().map(|noise| dot(&products(noise), &weights)).sum::<f64>();
-    let of_noise = MOST_NOISE * of_noise.max(0.0) / noise.len().max(1) as f64;
+    let of_noise = shaken::MOST * of_noise.max(0.0) / noise.len().max(1) as f64;
     Some(((dot(&own, &weights) - of_noise) / power, variance / (power * power)))
 }
 

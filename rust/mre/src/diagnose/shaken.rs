@@ -18,7 +18,7 @@ use crate::kernel::filter::dot;
 
 /// What noise may find at most, over what it is expected to: its size is known above the frequencies of the motion, and
 /// taken to be the same below.
-const MOST: f64 = 1.5;
+pub(super) const MOST: f64 = 1.5;
 
 /// Squared standard deviations in all that such noise changes the force by, below which it finds nothing.
 const LEAST: f64 = 0.5;
