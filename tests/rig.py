@@ -49,6 +49,14 @@ def record(
     )
 
 
+def slow(rng: np.random.Generator, count: int, memory: float) -> NDArray[np.float64]:
+    """Noise of unit size with so much correlation from sample to sample."""
+    noise, shocks = np.zeros(count + 400), rng.normal(size=count + 400)
+    for i in range(1, len(noise)):
+        noise[i] = memory * noise[i - 1] + np.sqrt(1 - memory**2) * shocks[i]
+    return noise[400:]
+
+
 def rms(error: NDArray[np.float64]) -> float:
     return float(np.sqrt(np.mean(error**2)))
 

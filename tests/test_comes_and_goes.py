@@ -6,7 +6,7 @@ import mre_core
 import numpy as np
 import pytest
 from mre_core import Diagnosis, Recording, simulate
-from rig import made_of
+from rig import made_of, slow
 
 RATE, SECONDS, NOISE = 200.0, 8.0, 0.25
 SPRING = made_of("kelvin_voigt", {"c0": 0.3, "k0": 6.0, "F0": 0.5})
@@ -43,13 +43,6 @@ def third_cycle(_: np.random.Generator, t: np.ndarray, x: np.ndarray) -> np.ndar
     """Every third cycle is another."""
     cycle = np.concatenate([[0], np.cumsum((x[1:] > 0) & (x[:-1] <= 0))])
     return np.where(cycle % 3 == 0, 1.0, -0.5)
-
-
-def slow(rng: np.random.Generator, count: int, memory: float) -> np.ndarray:
-    noise, shocks = np.zeros(count + 400), rng.normal(size=count + 400)
-    for i in range(1, len(noise)):
-        noise[i] = memory * noise[i - 1] + np.sqrt(1 - memory**2) * shocks[i]
-    return noise[400:]
 
 
 def diagnosed(share: Share | None, times: float, seed: int, memory: float = 0.9) -> Diagnosis:

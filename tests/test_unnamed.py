@@ -6,7 +6,7 @@ import mre_core
 import numpy as np
 import pytest
 from mre_core import Diagnosis, Recording, simulate
-from rig import made_of
+from rig import made_of, slow
 
 Law = Callable[[np.ndarray, np.ndarray], np.ndarray]
 
@@ -27,14 +27,6 @@ def moved(frequency: float, amplitude: float) -> Recording:
 MOTIONS = [moved(f, a) for f, a in ((0.5, 4.0), (1.0, 2.0), (1.0, 6.0), (2.0, 4.0), (3.0, 2.0))]
 
 
-def slow(rng: np.random.Generator, count: int) -> np.ndarray:
-    """Noise of unit size with a correlation of 0.97 from sample to sample."""
-    noise, shocks = np.zeros(count + 400), rng.normal(size=count + 400)
-    for i in range(1, len(noise)):
-        noise[i] = 0.97 * noise[i - 1] + np.sqrt(1 - 0.97**2) * shocks[i]
-    return noise[400:]
-
-
 def growing(x: np.ndarray, v: np.ndarray) -> np.ndarray:
     """Damping force that grows with the square of the displacement."""
     force: np.ndarray = x**2 * v
@@ -48,7 +40,7 @@ def diagnosed(size: float, law: Law = growing, *, shaken: float = 0.0, coloured:
         rng = np.random.default_rng(seed)
         force = simulate(SPRING, motion) + size * law(motion.displacement, motion.velocity)
         count = len(force)
-        noise = slow(rng, count) if coloured else rng.normal(size=count)
+        noise = slow(rng, count, 0.97) if coloured else rng.normal(size=count)
         force = force + 0.2 * noise
         shown = motion.displacement + shaken * rng.normal(size=count)
         recordings.append(Recording(motion.time, shown, force, velocity=motion.velocity, name=f"r{seed}"))
@@ -84,7 +76,7 @@ def test_a_stiffness_that_wanders_in_each_recording_on_its_own_gets_no_name(draw
         rng = np.random.default_rng(draw + place)
         knots = np.linspace(0.0, 10.0, 8)
         wander = 0.06 * np.interp(motion.time, knots, rng.normal(size=len(knots)))
-        force = simulate(SPRING, motion) + wander * motion.displacement + 0.2 * slow(rng, len(wander))
+        force = simulate(SPRING, motion) + wander * motion.displacement + 0.2 * slow(rng, len(wander), 0.97)
         recordings.append(
             Recording(motion.time, motion.displacement, force, velocity=motion.velocity, name=f"r{place}")
         )

@@ -57,6 +57,16 @@ impl<'a> LeftOut<'a> {
         }
     }
 
+    /// Which of so many samples from one on tell something, where what is left out goes on for so many more.
+    pub(super) fn told(&self, samples: Range<usize>, memory: usize) -> Vec<bool> {
+        let mut told = vec![true; samples.len()];
+        let place = |i: usize| i.clamp(samples.start, samples.end) - samples.start;
+        for gap in self.ranges {
+            told[place(gap.start)..place(gap.end + memory)].fill(false);
+        }
+        told
+    }
+
     fn of_the_scored(&self) -> Rows {
         let place = |i: usize| i.clamp(self.scored.start, self.scored.end) - self.scored.start;
         self.ranges.iter().map(|r| place(r.start)..place(r.end)).filter(|r| !r.is_empty()).collect()

@@ -49,13 +49,8 @@ impl Null<'_> {
             let strength: Vec<f64> = force.iter().map(|f| (f - mean).powi(2)).collect();
             let cycle = recording.sampling_rate() / frequency(recording);
             let together = ((cycle / IN_A_CYCLE).round() as usize).max(1);
-            let mut counts = vec![true; left.len()];
-            for gap in LeftOut::of(campaign, r).ranges {
-                let place = |i: usize| i.clamp(scored.start, scored.end) - scored.start;
-                counts[place(gap.start)..place(gap.end)].fill(false);
-            }
-            let counts: Vec<bool> =
-                counts.chunks_exact(together).map(|some| some.iter().all(|c| *c)).collect();
+            let told = LeftOut::of(campaign, r).told(scored.clone(), 0);
+            let counts: Vec<bool> = told.chunks_exact(together).map(|some| some.iter().all(|c| *c)).collect();
             // The force does not follow the noise of its motion, which is correlated where it was smoothed.
             let noise = |there: &View| {
                 let change = there.force[r][scored.clone()].iter().zip(force).map(|(a, b)| a - b);
