@@ -2,19 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use rayon::prelude::*;
-
-use super::candidates::{Candidate, candidates, scores, smallest};
-use super::held::Held;
-use super::joint::joint;
+use super::candidates::{Candidate, candidates, moved, scores};
 use super::least_squares::Data;
 use super::next_test::Rival;
-use super::null::Null;
-use super::screen::Score;
+use super::other_laws::{doubted, fits, unfitted};
 use super::search::{Named, REFITTED, Search};
 use crate::effect::About;
 
-/// A rival that leaves less than this much more (in squared standard deviations, a parameter's price
+/// A rival that leaves less than this much more (in squared standard deviations, the price of the parameters that it spares
 /// included) cannot be told apart: the odds against it are below 150 to 1.
 pub(super) const APART: f64 = 10.0;
 
@@ -51,30 +46,17 @@ pub(super) fn rivals<'a>(
     let known = named.assembly.effects()[place].about();
     let unit = &without.fitted.unit;
     let scored = scores(&without.assembly, data, unit, search.settings);
-    let own = smallest(&named.assembly, &named.fitted, place);
+    let size = moved(&named.assembly, &named.fitted, place);
+    let own = named.fitted.beside(size, size);
     let mut found = candidates(&without.assembly, data, unit, &scored, REFITTED);
     let doubted = doubted(&found, &scored, own + APART);
-    let others: Vec<&Score> = scored
-        .iter()
-        .filter(|score| {
-            let about = score.effect.about();
-            let in_doubt = about.effect == known.effect || doubted.contains(&about.effect);
-            in_doubt && about != known && found.iter().all(|model| model.law() != Some(about))
-        })
-        .collect();
-    let null = (!others.is_empty()).then(|| Null::new(&without.assembly, data, unit)).flatten();
-    if let Some(null) = null {
-        let starts: Vec<Held> = others.into_par_iter().map(|score| null.held(score)).collect();
-        drop(null);
-        found.par_extend(
-            starts
-                .into_par_iter()
-                .map(|held| joint(&without.assembly, data, unit, held.score.effect, &held.shape)),
-        );
-    }
+    let in_doubt = |effect| effect == known.effect || doubted.contains(&effect);
+    let mut others = unfitted(&scored, &found, in_doubt);
+    others.retain(|score| score.effect.about() != known);
+    found.extend(fits(&without.assembly, data, unit, &others));
     found.sort_by(|a, b| a.criterion().total_cmp(&b.criterion()));
     let within = |far: f64| {
-        let near = found.iter().filter(move |model| model.as_the_smallest() <= own + far);
+        let near = found.iter().filter(move |model| model.fitted.beside(model.moved(), size) <= own + far);
         near.filter_map(Candidate::added).filter(|effect| *effect != known.effect)
     };
     let mut close: Vec<&'static str> = Vec::new();
@@ -102,18 +84,4 @@ pub(super) fn rivals<'a>(
     }
     let (rivals, laws) = rivals.into_iter().partition(|rival| rival.effect != known.effect);
     Alternatives { effects, rivals, laws }
-}
-
-/// Effects that may come within a criterion: some law of theirs would, had it no more parameters than the plainest. A
-/// larger law that takes the place of a plain one among those that are fitted leaves no more than that, at a higher price.
-fn doubted(found: &[Candidate], scored: &[Score], limit: f64) -> Vec<&'static str> {
-    let spared = |model: &Candidate| {
-        let of_effect = scored.iter().filter(|score| Some(score.effect.about().effect) == model.added());
-        let fewest = of_effect.map(Score::parameters).min();
-        let own =
-            scored.iter().find(|score| Some(score.effect.about()) == model.law()).map(Score::parameters);
-        own.zip(fewest).map_or(0, |(own, fewest)| own - fewest)
-    };
-    let could = |model: &&Candidate| model.criterion() - model.fitted.price() * spared(model) as f64 <= limit;
-    found.iter().filter(could).filter_map(Candidate::added).collect()
 }

@@ -8,38 +8,31 @@ use super::coherent::without_the_coherent;
 use super::drift::{beside, without_drift};
 use super::extrapolated::{Beside, Extent};
 use super::gaps::LeftOut;
-use super::held::Held;
 use super::joint::{joint, unbent};
 use super::least_squares::{Data, Fitted};
 use super::noise::Noise;
 use super::null::Null;
+use super::other_laws;
 use super::plain_mismatch;
 use super::point::forces;
+use super::promising::promising;
 use super::screen::Score;
 use super::search::REFITTED;
 use super::settings::Settings;
 use super::slow::temper;
 use super::starts::{calm, without_initial_state};
 use crate::assembly::{Assembly, Campaign};
-use crate::effect::{About, CATALOGUE, Effect, Flexibility};
+use crate::effect::{About, CATALOGUE, Effect};
 use crate::parameter::Parameter;
 
 /// The best of them are also fitted from other shapes of the base.
 const UNBENT: usize = 2;
 /// Candidates closer than this in the criterion fit about equally well.
-const TIE: f64 = 4.0;
+pub(super) const TIE: f64 = 4.0;
 /// Differences in the criterion below this come from where a fit stops.
 const NUMERICAL: f64 = 0.1;
 /// No law is exact: a difference below this share of what a candidate explains is no reason to prefer it.
 const EXACT: f64 = 3e-5;
-/// Laws of one effect that are fitted jointly.
-const LAWS_EACH: usize = 2;
-/// A law whose score is below this share of the best is not looked at further.
-const PROMISING: f64 = 0.1;
-/// What gives way in series is looked at where one of its laws has a smaller p-value.
-const SEEN: f64 = 1e-3;
-/// A law that takes off less than this share of the best, the model's tangents held, is not fitted jointly.
-const CLOSE: f64 = 0.4;
 
 /// A law with its joint fit.
 #[derive(Clone)]
@@ -66,10 +59,10 @@ impl Candidate<'_> {
         self.law().map(|about| about.effect)
     }
 
-    /// The criterion without what the last law pays for parameters that stand at an ideal of their own.
-    pub(super) fn as_the_smallest(&self) -> f64 {
+    /// Parameters, without those of the last law that stand at an ideal of their own.
+    pub(super) fn moved(&self) -> usize {
         let last = self.assembly.effects().len().checked_sub(1);
-        last.map_or(self.criterion(), |last| smallest(&self.assembly, &self.fitted, last))
+        last.map_or(self.fitted.parameters(), |last| moved(&self.assembly, &self.fitted, last))
     }
 
     /// Place of the last law in the catalogue.
@@ -85,9 +78,9 @@ impl Candidate<'_> {
     }
 }
 
-/// The criterion of a model whose effect at a place pays for no parameter that stands at an ideal of its own: there it
-/// is a smaller law.
-pub(super) fn smallest(assembly: &Assembly, fitted: &Fitted, place: usize) -> f64 {
+/// Parameters of a model, without those of its effect at a place that stand at an ideal of their own: there it is a smaller
+/// law.
+pub(super) fn moved(assembly: &Assembly, fitted: &Fitted, place: usize) -> usize {
     let sizes = assembly.campaign().sizes();
     let counts: Vec<usize> = assembly.effects().iter().map(|e| e.shape(sizes).len()).collect();
     let (after, own) = (counts.iter().skip(place + 1).sum(), counts.get(place).copied().unwrap_or(0));
@@ -95,7 +88,7 @@ pub(super) fn smallest(assembly: &Assembly, fitted: &Fitted, place: usize) -> f6
         |(p, unit): &(&Parameter, &f64)| (**unit <= 0.0 && p.ideal.lower) || (**unit >= 1.0 && p.ideal.upper);
     let shapes = assembly.shapes();
     let idle = shapes.iter().zip(&fitted.unit).rev().skip(after).take(own).filter(idle).count();
-    fitted.criterion() - fitted.price() * idle as f64
+    fitted.parameters() - idle
 }
 
 /// Advantage in the criterion that counts between candidates that explain so much.
@@ -172,57 +165,6 @@ pub(super) fn by_effect(scores: &[Score]) -> Vec<(&'static str, f64)> {
     found.into_iter().map(|(id, p, count)| (id, (p * count as f64).min(1.0))).collect()
 }
 
-/// The laws that are worth a joint fit, strongest first: a few of each effect, so that the many laws of one do
-/// not crowd out the others.
-fn promising<'s>(null: &Null, scores: &'s [Score], most: usize) -> Vec<Held<'s>> {
-    let best = scores.iter().map(|s| s.gain).fold(0.0, f64::max);
-    let mut refined: Vec<Held> = scores
-        .par_iter()
-        .filter(|s| s.gain > 0.0 && s.p_value < 0.5 && s.gain >= PROMISING * best)
-        .map(|s| null.held(s))
-        .collect();
-    let best = refined.iter().map(|held| held.gain).fold(0.0, f64::max);
-    // What changes the motion or the force acts on the model as it will be, not as it is: where much is missing, its
-    // direction tells more than its size beside the tangents.
-    let gain = |held: &Held| {
-        if held.score.effect.coefficients().is_empty() { held.gain.max(held.score.gain) } else { held.gain }
-    };
-    let price = null.point.fitted.price();
-    let size = |held: &Held| held.score.parameters();
-    let paid = |held: &Held| gain(held) - price * size(held) as f64;
-    refined.sort_by(|a, b| paid(b).total_cmp(&paid(a)));
-    let mut kept: Vec<Held> = Vec::new();
-    for held in refined {
-        let id = held.score.effect.about().effect;
-        let alike: Vec<&Held> = kept.iter().filter(|k| k.score.effect.about().effect == id).collect();
-        // A simpler law that does as well may decide a tie.
-        let simpler = alike.iter().all(|k| size(&held) < size(k) && paid(&held) > paid(k) - TIE);
-        if (alike.len() < LAWS_EACH || simpler) && gain(&held) >= CLOSE * best && kept.len() < most {
-            kept.push(held);
-        }
-    }
-    if most >= REFITTED {
-        kept.extend(in_series(null, scores, &kept));
-    }
-    kept
-}
-
-/// The plainest law of what gives way in series with a hysteretic base, unless one is there: behind it the base is
-/// another, of which its tangents as it is tell little.
-fn in_series<'s>(null: &Null, scores: &'s [Score], kept: &[Held]) -> Option<Held<'s>> {
-    let gives_way =
-        |score: &Score| score.effect.flexibility(&score.start).is_some_and(Flexibility::gives_way);
-    let base = null.assembly().base();
-    if base.groups().is_empty() || !base.is_hysteretic() || kept.iter().any(|held| gives_way(held.score)) {
-        return None;
-    }
-    let mut of_them = scores.iter().filter(|score| gives_way(score));
-    // Where no law of it is seen, it could not enter.
-    let seen = of_them.clone().any(|score| score.p_value < SEEN);
-    let score = of_them.next().filter(|_| seen)?;
-    Some(Held { score, shape: score.start.clone(), gain: score.gain })
-}
-
 /// Joint fits of the most promising laws, best first.
 pub(super) fn candidates<'a>(
     assembly: &Assembly<'a>,
@@ -238,11 +180,17 @@ pub(super) fn candidates<'a>(
         .into_par_iter()
         .map(|held| joint(assembly, data, unit, held.score.effect, &held.shape))
         .collect();
-    found.sort_by(|a, b| a.criterion().total_cmp(&b.criterion()));
+    let sort = |found: &mut Vec<Candidate>| found.sort_by(|a, b| a.criterion().total_cmp(&b.criterion()));
+    sort(&mut found);
+    if most >= REFITTED {
+        let explained = found.first().map_or(0.0, |best| before - best.fitted.left);
+        found.extend(other_laws::of_those_close(assembly, data, unit, scores, &found, explained));
+        sort(&mut found);
+    }
     let rest = found.split_off(found.len().min(UNBENT));
     found = found.into_par_iter().map(|c| unbent(c, data)).collect();
     found.extend(rest);
-    found.sort_by(|a, b| a.criterion().total_cmp(&b.criterion()));
+    sort(&mut found);
     // In a tie the plainest is named: fewest parameters, then the plainest law of an effect, then what fits best.
     let explained = found.first().map_or(0.0, |best| before - best.fitted.left);
     let best = found.first().map_or(0.0, Candidate::criterion);

@@ -1,0 +1,85 @@
+//! Laws that were not fitted of effects that come close: which laws of an effect are fitted first is told by linearised
+//! ones.
+
+use rayon::prelude::*;
+
+use super::candidates::Candidate;
+use super::held::Held;
+use super::joint::joint;
+use super::least_squares::Data;
+use super::null::Null;
+use super::screen::Score;
+use crate::assembly::Assembly;
+
+/// An effect whose laws so far are further than this share of what the best explains has none that is nearer.
+const ANOTHER_LAW: f64 = 0.01;
+/// Effects beside the best whose other laws are fitted.
+const EFFECTS: usize = 3;
+
+/// Joint fits of the other laws of effects that come close to the best of those that are found.
+pub(super) fn of_those_close<'a>(
+    assembly: &Assembly<'a>,
+    data: Data,
+    unit: &[f64],
+    scores: &[Score],
+    found: &[Candidate<'a>],
+    explained: f64,
+) -> Vec<Candidate<'a>> {
+    let Some(best) = found.first() else { return Vec::new() };
+    let mut close = doubted(found, scores, best.criterion() + ANOTHER_LAW * explained);
+    // Other laws of the effect that is named are tried when it is.
+    close.retain(|effect| Some(*effect) != best.added());
+    close.truncate(EFFECTS);
+    fits(assembly, data, unit, &unfitted(scores, found, |effect| close.contains(&effect)))
+}
+
+/// Effects that may come within a criterion, best first: some law of theirs would, had it no more parameters than the plainest. A
+/// larger law that takes the place of a plain one among those that are fitted leaves no more than that, at a higher price.
+pub(super) fn doubted(found: &[Candidate], scores: &[Score], limit: f64) -> Vec<&'static str> {
+    let spared = |model: &Candidate| {
+        let of_effect = scores.iter().filter(|score| Some(score.effect.about().effect) == model.added());
+        let fewest = of_effect.map(Score::parameters).min();
+        let own =
+            scores.iter().find(|score| Some(score.effect.about()) == model.law()).map(Score::parameters);
+        own.zip(fewest).map_or(0, |(own, fewest)| own - fewest)
+    };
+    let could = |model: &&Candidate| model.criterion() - model.fitted.price() * spared(model) as f64 <= limit;
+    let mut close = Vec::new();
+    for effect in found.iter().filter(could).filter_map(Candidate::added) {
+        if !close.contains(&effect) {
+            close.push(effect);
+        }
+    }
+    close
+}
+
+/// Laws of some effects that are not among the fits.
+pub(super) fn unfitted<'s>(
+    scores: &'s [Score],
+    found: &[Candidate],
+    of: impl Fn(&'static str) -> bool,
+) -> Vec<&'s Score> {
+    let unfitted = |score: &&Score| {
+        let about = score.effect.about();
+        of(about.effect) && found.iter().all(|model| model.law() != Some(about))
+    };
+    scores.iter().filter(unfitted).collect()
+}
+
+/// Joint fits of some laws.
+pub(super) fn fits<'a>(
+    assembly: &Assembly<'a>,
+    data: Data,
+    unit: &[f64],
+    laws: &[&Score],
+) -> Vec<Candidate<'a>> {
+    if laws.is_empty() {
+        return Vec::new();
+    }
+    let Some(null) = Null::new(assembly, data, unit) else { return Vec::new() };
+    let starts: Vec<Held> = laws.par_iter().map(|score| null.held(score)).collect();
+    // Its samples are many, and not needed any more.
+    drop(null);
+    let fit = |held: Held| joint(assembly, data, unit, held.score.effect, &held.shape);
+    starts.into_par_iter().map(fit).collect()
+}

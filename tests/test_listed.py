@@ -1,0 +1,69 @@
+"""An effect is named or listed if any law of its fits as well as the best, with however many parameters."""
+
+from collections.abc import Callable
+
+import mre_core
+import numpy as np
+import pytest
+from mre_core import Recording
+from rig import slow
+from scipy.signal import butter, lfilter  # type: ignore[import-untyped]
+
+RATE, FINE = 200, 10
+
+Device = Callable[[np.ndarray, np.ndarray], np.ndarray]
+
+
+def moved(seed: int, highest: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Sines that swell from rest, at ten times the rate of recordings: time, displacement, velocity."""
+    rng = np.random.default_rng([seed, 1])
+    t = np.arange(0.0, 8.0, 1 / (RATE * FINE))
+    x = np.zeros_like(t)
+    for frequency in rng.uniform(0.3, highest, 6):
+        x += np.sin(2 * np.pi * frequency * t + rng.uniform(0, 2 * np.pi)) / frequency**0.5
+    x *= np.sin(np.pi * np.clip(t / 4.0, 0.0, 0.5)) ** 2
+    x *= 5.0 / np.abs(x).max()
+    return t, x, np.gradient(x, t, edge_order=2)
+
+
+def filtered(x: np.ndarray, v: np.ndarray) -> np.ndarray:
+    """A spring and a dashpot, their force through a filter of second order."""
+    b, a = butter(2, 65.0, fs=RATE * FINE)
+    force: np.ndarray = lfilter(b, a, 12.0 * x + 0.15 * v)
+    return force
+
+
+def relaxing(x: np.ndarray, v: np.ndarray) -> np.ndarray:
+    """A spring, a dashpot and two Maxwell branches."""
+    force = 6.0 * x + 0.3 * v
+    for tau in (0.17, 1.1):
+        decay = np.exp(-1 / (RATE * FINE * tau))
+        force = force + 0.6 * tau * lfilter([1 - decay], [1, -decay], v)
+    return force
+
+
+def in_the_place_of_one(
+    device: Device, *, highest: float, noise: float, memory: float, seed: int
+) -> set[str]:
+    """The one effect named, and those that are not told from it."""
+    recordings = []
+    for k in range(4):
+        t, x, v = moved(10 * seed + k, highest)
+        force = device(x, v)[::FINE]
+        force = force + noise * slow(np.random.default_rng([seed, k]), len(force), memory)
+        recordings.append(Recording(t[::FINE], x[::FINE], force, velocity=v[::FINE], name=f"r{k}"))
+    found = mre_core.diagnose(recordings, "kelvin_voigt", seed=1)
+    assert found.verdict == "missing_physics"
+    (effect,) = found.effects
+    return {effect.id, *effect.indistinguishable_from}
+
+
+@pytest.mark.parametrize("seed", [1, 2, 4])
+def test_a_law_that_is_not_among_the_first_of_its_effect(seed: int) -> None:
+    """Filters of first order fit worse than a delay by far, and the one of second order as well or better."""
+    assert "filter_lag" in in_the_place_of_one(filtered, highest=8.0, noise=0.07, memory=0.97, seed=seed)
+
+
+def test_a_law_with_more_parameters_that_fits_better() -> None:
+    """Two branches fit better than a power law, if not by what two parameters more cost for a name."""
+    assert "maxwell_relaxation" in in_the_place_of_one(relaxing, highest=2.0, noise=0.2, memory=0.9, seed=2)
