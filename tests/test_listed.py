@@ -1,4 +1,4 @@
-"""An effect is named or listed if any law of its fits as well as the best, with however many parameters."""
+"""An effect is named or listed if any law of its fits as well as the best, or better by more than chance."""
 
 from collections.abc import Callable
 

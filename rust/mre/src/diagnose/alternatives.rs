@@ -2,14 +2,18 @@
 
 use std::collections::BTreeMap;
 
-use super::candidates::{Candidate, candidates, moved, scores};
-use super::least_squares::Data;
+use rayon::prelude::*;
+
+use super::candidates::{Candidate, candidates, scores, smallest};
+use super::intervals::estimates;
+use super::least_squares::{Data, Fitted};
 use super::next_test::Rival;
 use super::other_laws::{doubted, fits, unfitted};
 use super::search::{Named, REFITTED, Search};
+use super::strained::strained;
 use crate::effect::About;
 
-/// A rival that leaves less than this much more (in squared standard deviations, the price of the parameters that it spares
+/// A rival that leaves less than this much more (in squared standard deviations, a parameter's price
 /// included) cannot be told apart: the odds against it are below 150 to 1.
 pub(super) const APART: f64 = 10.0;
 
@@ -46,8 +50,7 @@ pub(super) fn rivals<'a>(
     let known = named.assembly.effects()[place].about();
     let unit = &without.fitted.unit;
     let scored = scores(&without.assembly, data, unit, search.settings);
-    let size = moved(&named.assembly, &named.fitted, place);
-    let own = named.fitted.beside(size, size);
+    let own = smallest(&named.assembly, &named.fitted, place);
     let mut found = candidates(&without.assembly, data, unit, &scored, REFITTED);
     let doubted = doubted(&found, &scored, own + APART);
     let in_doubt = |effect| effect == known.effect || doubted.contains(&effect);
@@ -55,9 +58,14 @@ pub(super) fn rivals<'a>(
     others.retain(|score| score.effect.about() != known);
     found.extend(fits(&without.assembly, data, unit, &others));
     found.sort_by(|a, b| a.criterion().total_cmp(&b.criterion()));
+    let as_rival = |model: &Candidate| {
+        let paid = model.as_the_smallest();
+        if paid > own + APART && fits_better(model, &named.fitted, data) { own } else { paid }
+    };
+    let as_rivals: Vec<f64> = found.par_iter().map(as_rival).collect();
     let within = |far: f64| {
-        let near = found.iter().filter(move |model| model.fitted.beside(model.moved(), size) <= own + far);
-        near.filter_map(Candidate::added).filter(|effect| *effect != known.effect)
+        let near = found.iter().zip(&as_rivals).filter(move |(_, criterion)| **criterion <= own + far);
+        near.filter_map(|(model, _)| model.added()).filter(|effect| *effect != known.effect)
     };
     let mut close: Vec<&'static str> = Vec::new();
     for effect in within(APART) {
@@ -84,4 +92,14 @@ pub(super) fn rivals<'a>(
     }
     let (rivals, laws) = rivals.into_iter().partition(|rival| rival.effect != known.effect);
     Alternatives { effects, rivals, laws }
+}
+
+/// True where a model leaves less by more than its parameters take by chance: what they cost where one law is to be named
+/// says little of which is true (Akaike, IEEE Trans. Autom. Control 19 (1974) 716). A law with a parameter that cannot be
+/// told from nothing, or is at the end of its range, is there another one.
+fn fits_better(model: &Candidate, known: &Fitted, data: Data) -> bool {
+    let last = model.assembly.effects().len().saturating_sub(1);
+    let estimates = || estimates(&model.assembly, data, &model.fitted.unit);
+    model.fitted.beyond_chance() < known.beyond_chance()
+        && strained(&model.assembly, &estimates(), last).is_empty()
 }

@@ -59,10 +59,10 @@ impl Candidate<'_> {
         self.law().map(|about| about.effect)
     }
 
-    /// Parameters, without those of the last law that stand at an ideal of their own.
-    pub(super) fn moved(&self) -> usize {
+    /// The criterion without what the last law pays for parameters that stand at an ideal of their own.
+    pub(super) fn as_the_smallest(&self) -> f64 {
         let last = self.assembly.effects().len().checked_sub(1);
-        last.map_or(self.fitted.parameters(), |last| moved(&self.assembly, &self.fitted, last))
+        last.map_or(self.criterion(), |last| smallest(&self.assembly, &self.fitted, last))
     }
 
     /// Place of the last law in the catalogue.
@@ -78,9 +78,9 @@ impl Candidate<'_> {
     }
 }
 
-/// Parameters of a model, without those of its effect at a place that stand at an ideal of their own: there it is a smaller
-/// law.
-pub(super) fn moved(assembly: &Assembly, fitted: &Fitted, place: usize) -> usize {
+/// The criterion of a model whose effect at a place pays for no parameter that stands at an ideal of its own: there it
+/// is a smaller law.
+pub(super) fn smallest(assembly: &Assembly, fitted: &Fitted, place: usize) -> f64 {
     let sizes = assembly.campaign().sizes();
     let counts: Vec<usize> = assembly.effects().iter().map(|e| e.shape(sizes).len()).collect();
     let (after, own) = (counts.iter().skip(place + 1).sum(), counts.get(place).copied().unwrap_or(0));
@@ -88,7 +88,7 @@ pub(super) fn moved(assembly: &Assembly, fitted: &Fitted, place: usize) -> usize
         |(p, unit): &(&Parameter, &f64)| (**unit <= 0.0 && p.ideal.lower) || (**unit >= 1.0 && p.ideal.upper);
     let shapes = assembly.shapes();
     let idle = shapes.iter().zip(&fitted.unit).rev().skip(after).take(own).filter(idle).count();
-    fitted.parameters() - idle
+    fitted.criterion() - fitted.price() * idle as f64
 }
 
 /// Advantage in the criterion that counts between candidates that explain so much.

@@ -12,8 +12,6 @@ use crate::assembly::Assembly;
 const MOST: usize = 25;
 /// The search ends when a step gains less than this (in squared standard deviations).
 const LEAST_GAIN: f64 = 1e-2;
-/// What a parameter takes by chance, and in expectation costs (in squared standard deviations).
-const BY_CHANCE: f64 = 2.0;
 
 /// An assembly with fitted parameters.
 #[derive(Debug, Clone)]
@@ -36,19 +34,7 @@ impl Fitted {
 
     /// Whitened criterion of Akaike, up to a constant: what is left more than parameters take by chance.
     pub(super) fn beyond_chance(&self) -> f64 {
-        self.left + BY_CHANCE * self.parameters() as f64
-    }
-
-    /// The criterion of a model with so many parameters where one with so many may be true: what a parameter more costs
-    /// where a law is to be named says little of which is true, but that it fits better by chance (Akaike, IEEE Trans.
-    /// Autom. Control 19 (1974) 716).
-    pub(super) fn beside(&self, own: usize, known: usize) -> f64 {
-        self.left + own as f64 * self.price() - self.spared(own, known)
-    }
-
-    /// What a model with so many parameters is spared where one with so many may be true.
-    pub(super) fn spared(&self, own: usize, known: usize) -> f64 {
-        own.saturating_sub(known) as f64 * (self.price() - BY_CHANCE)
+        self.left + 2.0 * self.parameters() as f64
     }
 
     /// What a parameter costs in the Bayesian information criterion.

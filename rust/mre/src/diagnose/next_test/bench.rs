@@ -149,11 +149,8 @@ impl<'b, 'a> Bench<'b, 'a> {
     fn told(&self, found: &Criteria) -> Told {
         let weights: Vec<(usize, f64)> = self.truths.iter().map(|t| (t.model, t.weight)).collect();
         told(&self.places, &criteria(&self.models), &weights, |t, other| {
-            let Some(criterion) = found.get(&(t, other)) else { return f64::INFINITY };
-            let own = self.truths[t].model;
-            // It is listed, after the test too, by what it leaves.
-            let (own, other, known) = (found[&(t, own)], &self.models[other], self.models[own].moved());
-            let difference = criterion - own - other.fitted.spared(other.moved(), known);
+            let Some(other) = found.get(&(t, other)) else { return f64::INFINITY };
+            let difference = other - found[&(t, self.truths[t].model)];
             // Where neither can follow the test, it tells nothing.
             if difference.is_nan() { 0.0 } else { difference }
         })
