@@ -72,12 +72,45 @@ def test_a_stiffness_that_oscillates_under_a_sine_gets_no_name() -> None:
     assert told["oscillation"] == pytest.approx(FREQUENCY, abs=0.01)
 
 
-def diagnosed_sine(ripple: float = 0.0, tone: float = 0.0) -> Diagnosis:
-    """Three minutes of 2 Hz on a spring and a dashpot; the stiffness has a wave or the force a tone."""
+def test_a_stiffness_that_oscillates_about_an_offset_gets_no_name() -> None:
+    """It has a tone of its own frequency too."""
+    found = about_offsets(ripple=0.05)
+    assert found.verdict == "unexplained", found
+    assert found.unknown is not None
+    told = {d["on"]: d["size"] for d in found.unknown["depends_on"]}
+    assert told["oscillation"] == pytest.approx(FREQUENCY, abs=0.03)
+
+
+def test_tones_about_offsets_are_none() -> None:
+    assert about_offsets(tone=0.3).verdict == "adequate"
+
+
+def about_offsets(ripple: float = 0.0, tone: float = 0.0) -> Diagnosis:
+    """Six seconds about each of three offsets; the stiffness has a wave or the force a tone."""
+    rng = np.random.default_rng(59)
+    recordings = []
+    for drive, amplitude, offset in ((1.19, 4.0, 3.9), (1.19, 4.7, -3.9), (2.38, 5.4, -3.9)):
+        t = np.arange(600) / 100
+        turn = 2 * np.pi * drive
+        x, v = offset + amplitude * np.sin(turn * t), amplitude * turn * np.cos(turn * t)
+        wave = np.sin(2 * np.pi * FREQUENCY * t + 2.7)
+        force = (8 + ripple * wave) * x + 0.3 * v + tone * wave + 0.17 * rng.normal(size=t.size)
+        recordings.append(Recording(t, x, force, velocity=v, name=f"{drive} Hz, {offset} mm"))
+    return mre_core.diagnose(recordings, "kelvin_voigt", seed=1)
+
+
+@pytest.mark.parametrize("tone", [FREQUENCY, 2.0 + FREQUENCY])
+def test_a_tone_about_an_offset_is_none(tone: float) -> None:
+    found = diagnosed_sine(tone=tone, offset=6.0)
+    assert found.verdict == "adequate", found
+
+
+def diagnosed_sine(ripple: float = 0.0, tone: float = 0.0, offset: float = 0.0) -> Diagnosis:
+    """2 Hz, about an offset, on a spring and a dashpot; the stiffness has a wave or the force a tone."""
     rng = np.random.default_rng(58)
     t = np.arange(18_000) / 100
     turn = 2 * np.pi * 2.0
-    x, v = 3 * np.sin(turn * t), 3 * turn * np.cos(turn * t)
+    x, v = offset + 3 * np.sin(turn * t), 3 * turn * np.cos(turn * t)
     force = (8 + ripple * np.sin(2 * np.pi * FREQUENCY * t)) * x + 0.3 * v + rng.normal(size=t.size)
     force += 0.15 * np.sin(2 * np.pi * tone * t) * (tone > 0)
     return mre_core.diagnose(Recording(t, x, force, velocity=v), "kelvin_voigt", seed=1)

@@ -107,8 +107,8 @@ impl Null<'_> {
             .collect()
     }
 
-    /// What a wave at one frequency takes off beside a tone there, and, of a sinusoidal motion, beside the better of those
-    /// that it would be on one side: a tone shows as half of a wave.
+    /// What a wave at one frequency takes off beside the tone that explains most of it: one there, where the motion is about
+    /// another place than zero, or of a sinusoidal motion one on a side. A tone of the measurement shows as part of a wave.
     fn oscillates(&self, carrier: Carrier, frequency: f64) -> Mismatch {
         let count = self.assembly().campaign().recordings().len();
         let projected = self.project(KINDS * 2 * count, |view, r| {
@@ -137,11 +137,11 @@ impl Null<'_> {
             let places = kinds.iter().flat_map(|kind| 2 * kind * count..2 * (kind + 1) * count);
             Projected::of(&projected, &places.collect::<Vec<_>>()).mismatch()
         };
-        let beside = |side: usize| {
-            let (tones, all) = (of(&[THERE, side]), of(&[THERE, side, CARRIED]));
+        let beside = |tone: usize| {
+            let (tones, all) = (of(&[tone]), of(&[tone, CARRIED]));
             Mismatch { p_value: 1.0, gain: all.gain - tones.gain, freedom: all.freedom - tones.freedom }
         };
-        let (above, below) = (beside(ABOVE), beside(BELOW));
-        if above.gain < below.gain { above } else { below }
+        let least = [ABOVE, BELOW].into_iter().map(beside);
+        least.fold(beside(THERE), |least, other| if other.gain < least.gain { other } else { least })
     }
 }
