@@ -60,7 +60,9 @@ pub(super) fn rivals<'a>(
     found.sort_by(|a, b| a.criterion().total_cmp(&b.criterion()));
     let as_rival = |model: &Candidate| {
         let paid = model.as_the_smallest();
-        if paid > own + APART && fits_better(model, &named.fitted, data) { own } else { paid }
+        let apart = model.added() != Some(known.effect) && paid > own + APART;
+        // Likelihoods of a noise that is not known say nothing so fine.
+        if apart && !named.noise.hidden() && fits_better(model, &named.fitted, data) { own } else { paid }
     };
     let as_rivals: Vec<f64> = found.par_iter().map(as_rival).collect();
     let within = |far: f64| {
@@ -94,12 +96,14 @@ pub(super) fn rivals<'a>(
     Alternatives { effects, rivals, laws }
 }
 
-/// True where a model leaves less by more than its parameters take by chance: what they cost where one law is to be named
-/// says little of which is true (Akaike, IEEE Trans. Autom. Control 19 (1974) 716). A law with a parameter that cannot be
-/// told from nothing, or is at the end of its range, is there another one.
+/// True where a model leaves less by Akaike's criterion: what a parameter costs where one law is to be named says little of
+/// which is true (IEEE Trans. Autom. Control 19 (1974) 716). Not so where its law is pressed to an end of its range, or the
+/// parameter that makes it this effect cannot be told from nothing: there it is a larger form of another.
 fn fits_better(model: &Candidate, known: &Fitted, data: Data) -> bool {
-    let last = model.assembly.effects().len().saturating_sub(1);
-    let estimates = || estimates(&model.assembly, data, &model.fitted.unit);
-    model.fitted.beyond_chance() < known.beyond_chance()
-        && strained(&model.assembly, &estimates(), last).is_empty()
+    let Some((last, law)) = model.assembly.effects().iter().enumerate().next_back() else { return false };
+    // A column in every recording fits better by its number.
+    if law.of_the_measurement() || model.fitted.beyond_chance() >= known.beyond_chance() {
+        return false;
+    }
+    strained(&model.assembly, &estimates(&model.assembly, data, &model.fitted.unit), last).is_empty()
 }

@@ -57,8 +57,8 @@ impl<'a> LeftOut<'a> {
         }
     }
 
-    /// Which of so many samples from one on tell something, where what is left out goes on for so many more.
-    pub(super) fn told(&self, samples: Range<usize>, memory: usize) -> Vec<bool> {
+    /// Which of some samples tell something, where what is left out is felt for so many more.
+    pub(super) fn telling(&self, samples: Range<usize>, memory: usize) -> Vec<bool> {
         let mut told = vec![true; samples.len()];
         let place = |i: usize| i.clamp(samples.start, samples.end) - samples.start;
         for gap in self.ranges {

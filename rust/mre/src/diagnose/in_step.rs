@@ -49,8 +49,9 @@ impl Null<'_> {
             let strength: Vec<f64> = force.iter().map(|f| (f - mean).powi(2)).collect();
             let cycle = recording.sampling_rate() / frequency(recording);
             let together = ((cycle / IN_A_CYCLE).round() as usize).max(1);
-            let told = LeftOut::of(campaign, r).told(scored.clone(), 0);
-            let counts: Vec<bool> = told.chunks_exact(together).map(|some| some.iter().all(|c| *c)).collect();
+            let telling = LeftOut::of(campaign, r).telling(scored.clone(), 0);
+            let counts: Vec<bool> =
+                telling.chunks_exact(together).map(|some| some.iter().all(|c| *c)).collect();
             // The force does not follow the noise of its motion, which is correlated where it was smoothed.
             let noise = |there: &View| {
                 let change = there.force[r][scored.clone()].iter().zip(force).map(|(a, b)| a - b);

@@ -12,6 +12,8 @@ use crate::assembly::Assembly;
 const MOST: usize = 25;
 /// The search ends when a step gains less than this (in squared standard deviations).
 const LEAST_GAIN: f64 = 1e-2;
+/// What a parameter costs in the criterion of Akaike.
+const AKAIKE: f64 = 2.0;
 
 /// An assembly with fitted parameters.
 #[derive(Debug, Clone)]
@@ -34,7 +36,12 @@ impl Fitted {
 
     /// Whitened criterion of Akaike, up to a constant: what is left more than parameters take by chance.
     pub(super) fn beyond_chance(&self) -> f64 {
-        self.left + 2.0 * self.parameters() as f64
+        self.left + AKAIKE * self.parameters() as f64
+    }
+
+    /// What the parameters that another has not cost in the Bayesian information criterion beyond Akaike's.
+    pub(super) fn spared(&self, other: &Self) -> f64 {
+        self.parameters().saturating_sub(other.parameters()) as f64 * (self.price() - AKAIKE)
     }
 
     /// What a parameter costs in the Bayesian information criterion.

@@ -107,7 +107,7 @@ impl Null<'_> {
             .collect()
     }
 
-    /// What a wave at one frequency takes off beside the tone that explains most of it: one there, where the motion is about
+    /// What a wave at one frequency takes off beside the tone that leaves it least: one there, where the motion is about
     /// another place than zero, or of a sinusoidal motion one on a side. A tone of the measurement shows as part of a wave.
     fn oscillates(&self, carrier: Carrier, frequency: f64) -> Mismatch {
         let count = self.assembly().campaign().recordings().len();
@@ -141,7 +141,9 @@ impl Null<'_> {
             let (tones, all) = (of(&[tone]), of(&[tone, CARRIED]));
             Mismatch { p_value: 1.0, gain: all.gain - tones.gain, freedom: all.freedom - tones.freedom }
         };
-        let least = [ABOVE, BELOW].into_iter().map(beside);
-        least.fold(beside(THERE), |least, other| if other.gain < least.gain { other } else { least })
+        let [there, above, below] = [THERE, ABOVE, BELOW].map(beside);
+        [above, below]
+            .into_iter()
+            .fold(there, |least, other| if other.gain < least.gain { other } else { least })
     }
 }

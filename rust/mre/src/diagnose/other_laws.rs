@@ -1,5 +1,5 @@
-//! Laws that were not fitted of effects that come close: which laws of an effect are fitted first is told by linearised
-//! ones.
+//! Laws that were not fitted of effects that come close. Which laws of an effect are fitted first is told by their gains beside
+//! a model that bends along its tangents only, and the best may be among the others.
 
 use rayon::prelude::*;
 
@@ -11,12 +11,13 @@ use super::null::Null;
 use super::screen::Score;
 use crate::assembly::Assembly;
 
-/// An effect whose laws so far are further than this share of what the best explains has none that is nearer.
-const ANOTHER_LAW: f64 = 0.01;
+/// An effect is taken to have no law that is better where those fitted are further behind than this share of what the best
+/// explains.
+const BEHIND: f64 = 0.01;
 /// Effects beside the best whose other laws are fitted.
 const EFFECTS: usize = 3;
 
-/// Joint fits of the other laws of effects that come close to the best of those that are found.
+/// Joint fits of the other laws of the best effect found and of those that come close to it, where some do.
 pub(super) fn of_those_close<'a>(
     assembly: &Assembly<'a>,
     data: Data,
@@ -25,16 +26,19 @@ pub(super) fn of_those_close<'a>(
     found: &[Candidate<'a>],
     explained: f64,
 ) -> Vec<Candidate<'a>> {
-    let Some(best) = found.first() else { return Vec::new() };
-    let mut close = doubted(found, scores, best.criterion() + ANOTHER_LAW * explained);
-    // Other laws of the effect that is named are tried when it is.
-    close.retain(|effect| Some(*effect) != best.added());
-    close.truncate(EFFECTS);
+    let (Some(best), behind) = (found.first(), BEHIND * explained) else { return Vec::new() };
+    let mut close = doubted(found, scores, best.criterion() + behind);
+    // Where so little is explained, laws differ by chance.
+    if close.len() < 2 || behind < 1.0 {
+        return Vec::new();
+    }
+    close.truncate(1 + EFFECTS);
     fits(assembly, data, unit, &unfitted(scores, found, |effect| close.contains(&effect)))
 }
 
-/// Effects that may come within a criterion, best first: some law of theirs would, had it no more parameters than the plainest. A
-/// larger law that takes the place of a plain one among those that are fitted leaves no more than that, at a higher price.
+/// Effects that may come within a criterion, best first: some law of theirs would, had it no more parameters than the
+/// plainest. A larger law that takes the place of a plain one among those that are fitted leaves no more than that, at a
+/// higher price.
 pub(super) fn doubted(found: &[Candidate], scores: &[Score], limit: f64) -> Vec<&'static str> {
     let spared = |model: &Candidate| {
         let of_effect = scores.iter().filter(|score| Some(score.effect.about().effect) == model.added());

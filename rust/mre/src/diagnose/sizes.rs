@@ -51,7 +51,7 @@ impl Null<'_> {
         if start + left.len() != recording.scored().end || step_of(measured) > COARSE * deviation {
             return None;
         }
-        let counts = LeftOut::of(campaign, r).told(start..start + left.len(), memory);
+        let counts = LeftOut::of(campaign, r).telling(start..start + left.len(), memory);
         let whole = |some: &[bool]| some.iter().all(|counts| *counts);
         let counts: Vec<bool> = counts.chunks_exact(together).map(whole).collect();
         let mut squares: Vec<f64> = left.chunks_exact(together).map(size).collect();

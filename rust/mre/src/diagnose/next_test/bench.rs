@@ -12,6 +12,7 @@ use super::truth::{Truth, truths};
 use super::view::{Held, View};
 use super::world::{TOGETHER, World};
 use crate::assembly::{Assembly, Base};
+use crate::diagnose::alternatives::APART;
 use crate::diagnose::candidates::Candidate;
 use crate::diagnose::joint::{begun_anew, fit};
 use crate::diagnose::least_squares::Data;
@@ -149,8 +150,12 @@ impl<'b, 'a> Bench<'b, 'a> {
     fn told(&self, found: &Criteria) -> Told {
         let weights: Vec<(usize, f64)> = self.truths.iter().map(|t| (t.model, t.weight)).collect();
         told(&self.places, &criteria(&self.models), &weights, |t, other| {
-            let Some(other) = found.get(&(t, other)) else { return f64::INFINITY };
-            let difference = other - found[&(t, self.truths[t].model)];
+            let Some(criterion) = found.get(&(t, other)) else { return f64::INFINITY };
+            let own = self.truths[t].model;
+            let difference = criterion - found[&(t, own)];
+            // One with more parameters is in doubt as long as it is better by Akaike's criterion.
+            let spared = self.models[other].fitted.spared(&self.models[own].fitted);
+            let difference = difference.min(difference - spared + APART);
             // Where neither can follow the test, it tells nothing.
             if difference.is_nan() { 0.0 } else { difference }
         })
