@@ -20,15 +20,15 @@ def blank_of(recordings: list[Recording], count: int, base: str = "kelvin_voigt"
 
 def test_a_strong_effect_is_missing_from_the_recordings_and_not_from_the_blanks() -> None:
     few = campaign()[:4]
-    found = mre_core.diagnose(few, "kelvin_voigt", seed=1, blank=4, threads=1)
+    found = mre_core.diagnose(few, "kelvin_voigt", seed=1, blank=2, threads=1)
     assert found.verdict == "missing_physics"
     assert found.blank == {
-        **{"count": 4, "named": 0, "rate": 0.0, "low": 0.0},
+        **{"count": 2, "named": 0, "rate": 0.0, "low": 0.0},
         # Clopper and Pearson's upper end for none of n.
-        **{"high": pytest.approx(1 - 0.025 ** (1 / 4)), "stated": 0.01},
+        **{"high": pytest.approx(1 - 0.025 ** (1 / 2)), "stated": 0.01},
         **{"unexplained": 0, "by_effect": {}},
     }
-    again = mre_core.diagnose(few, "kelvin_voigt", seed=1, blank=4, threads=3)
+    again = mre_core.diagnose(few, "kelvin_voigt", seed=1, blank=2, threads=3)
     assert again.to_dict() == found.to_dict()
     # The diagnosis itself does not depend on them.
     alone = mre_core.diagnose(few, "kelvin_voigt", seed=1)

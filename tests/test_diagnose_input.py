@@ -120,7 +120,8 @@ def test_strange_recordings_of_the_catalogue_are_no_errors(recordings: list[Reco
 def test_relaxation_beside_cycles_is_no_error() -> None:
     x = 3 * np.clip(T, 0, 1)
     held = Recording(T, x, 8 * x + 3 * maxwell(T, np.gradient(x, T), 0.4) + 0.3 * NOISE, name="held")
-    assert mre_core.diagnose([*campaign(), held], seed=1).verdict in {"missing_physics", "partly_explained"}
+    found = mre_core.diagnose([*campaign()[:3], held], seed=1)
+    assert found.verdict in {"missing_physics", "partly_explained"}
 
 
 def test_one_cycle_is_enough_wherever_it_starts() -> None:
