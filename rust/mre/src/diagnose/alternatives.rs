@@ -8,7 +8,7 @@ use super::candidates::{Candidate, candidates, scores, smallest};
 use super::intervals::estimates;
 use super::least_squares::{Data, Fitted};
 use super::next_test::Rival;
-use super::other_laws::{doubted, fits, unfitted};
+use super::other_laws::{doubted, each_once, fits, unfitted};
 use super::search::{Named, REFITTED, Search};
 use super::strained::strained;
 use crate::effect::About;
@@ -69,12 +69,7 @@ pub(super) fn rivals<'a>(
         let near = found.iter().zip(&as_rivals).filter(move |(_, criterion)| **criterion <= own + far);
         near.filter_map(|(model, _)| model.added()).filter(|effect| *effect != known.effect)
     };
-    let mut close: Vec<&'static str> = Vec::new();
-    for effect in within(APART) {
-        if !close.contains(&effect) {
-            close.push(effect);
-        }
-    }
+    let close = each_once(within(APART));
     // Of those that are nearly as good the best.
     let mut effects = close.clone();
     for effect in within(left) {

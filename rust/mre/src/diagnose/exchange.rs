@@ -1,13 +1,10 @@
 //! What might stand in the place of effects that were named: other laws of them, and other effects.
 
-use rayon::prelude::*;
-
 use super::candidates::{Candidate, candidates, margin, scores};
-use super::joint::joint;
 use super::least_squares::Data;
 use super::monitor::Stage;
 use super::noise::Noise;
-use super::null::Null;
+use super::other_laws::fits_from;
 use super::search::{FEW, Named, REFITTED, Search};
 use super::worth::SLIGHT;
 use crate::effect::Effect;
@@ -140,17 +137,9 @@ impl<'a> Search<'_, 'a> {
         data: Data,
         laws: &[&'static dyn Effect],
     ) -> Vec<Candidate<'a>> {
-        let unit = &without.fitted.unit;
-        let Some(null) = Null::new(&without.assembly, data, unit) else { return Vec::new() };
-        let shape = |effect: &&'static dyn Effect| {
+        fits_from(&without.assembly, data, &without.fitted.unit, laws, |null, effect| {
             let score = null.score(*effect, self.settings.seed)?;
             Some((*effect, null.held(&score).shape))
-        };
-        let started: Vec<(&'static dyn Effect, Vec<f64>)> = laws.par_iter().filter_map(shape).collect();
-        // Its samples are many, and not needed any more.
-        drop(null);
-        let fitted =
-            started.into_par_iter().map(|(e, start)| joint(&without.assembly, data, unit, e, &start));
-        fitted.collect()
+        })
     }
 }

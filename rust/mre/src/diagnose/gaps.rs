@@ -59,17 +59,21 @@ impl<'a> LeftOut<'a> {
 
     /// Which of some samples tell something, where what is left out is felt for so many more.
     pub(super) fn telling(&self, samples: Range<usize>, memory: usize) -> Vec<bool> {
-        let mut told = vec![true; samples.len()];
-        let place = |i: usize| i.clamp(samples.start, samples.end) - samples.start;
-        for gap in self.ranges {
-            told[place(gap.start)..place(gap.end + memory)].fill(false);
+        let mut telling = vec![true; samples.len()];
+        for gap in self.places_in(&samples, memory) {
+            telling[gap].fill(false);
         }
-        told
+        telling
     }
 
     fn of_the_scored(&self) -> Rows {
-        let place = |i: usize| i.clamp(self.scored.start, self.scored.end) - self.scored.start;
-        self.ranges.iter().map(|r| place(r.start)..place(r.end)).filter(|r| !r.is_empty()).collect()
+        self.places_in(&self.scored, 0).filter(|gap| !gap.is_empty()).collect()
+    }
+
+    /// What is left out, and so many samples after it, as places in some samples.
+    fn places_in(&self, samples: &Range<usize>, memory: usize) -> impl Iterator<Item = Range<usize>> {
+        let place = |i: usize| i.clamp(samples.start, samples.end) - samples.start;
+        self.ranges.iter().map(move |gap| place(gap.start)..place(gap.end + memory))
     }
 
     /// Gaps in the whole recording, for an autoregression.

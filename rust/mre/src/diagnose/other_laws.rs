@@ -4,12 +4,12 @@
 use rayon::prelude::*;
 
 use super::candidates::Candidate;
-use super::held::Held;
 use super::joint::joint;
 use super::least_squares::Data;
 use super::null::Null;
 use super::screen::Score;
 use crate::assembly::Assembly;
+use crate::effect::Effect;
 
 /// An effect is taken to have no law that is better where those fitted are further behind than this share of what the best
 /// explains.
@@ -48,13 +48,7 @@ pub(super) fn doubted(found: &[Candidate], scores: &[Score], limit: f64) -> Vec<
         own.zip(fewest).map_or(0, |(own, fewest)| own - fewest)
     };
     let could = |model: &&Candidate| model.criterion() - model.fitted.price() * spared(model) as f64 <= limit;
-    let mut close = Vec::new();
-    for effect in found.iter().filter(could).filter_map(Candidate::added) {
-        if !close.contains(&effect) {
-            close.push(effect);
-        }
-    }
-    close
+    each_once(found.iter().filter(could).filter_map(Candidate::added))
 }
 
 /// Laws of some effects that are not among the fits.
@@ -70,20 +64,41 @@ pub(super) fn unfitted<'s>(
     scores.iter().filter(unfitted).collect()
 }
 
-/// Joint fits of some laws.
+/// Joint fits of laws that were scored, from shapes refined beside the model.
 pub(super) fn fits<'a>(
     assembly: &Assembly<'a>,
     data: Data,
     unit: &[f64],
     laws: &[&Score],
 ) -> Vec<Candidate<'a>> {
+    fits_from(assembly, data, unit, laws, |null, score| Some((score.effect, null.held(score).shape)))
+}
+
+/// Joint fits of some laws from starts that a null gives; those without one are left out.
+pub(super) fn fits_from<'a, L: Sync>(
+    assembly: &Assembly<'a>,
+    data: Data,
+    unit: &[f64],
+    laws: &[L],
+    start: impl Fn(&Null, &L) -> Option<(&'static dyn Effect, Vec<f64>)> + Sync,
+) -> Vec<Candidate<'a>> {
     if laws.is_empty() {
         return Vec::new();
     }
     let Some(null) = Null::new(assembly, data, unit) else { return Vec::new() };
-    let starts: Vec<Held> = laws.par_iter().map(|score| null.held(score)).collect();
+    let starts: Vec<_> = laws.par_iter().filter_map(|law| start(&null, law)).collect();
     // Its samples are many, and not needed any more.
     drop(null);
-    let fit = |held: Held| joint(assembly, data, unit, held.score.effect, &held.shape);
-    starts.into_par_iter().map(fit).collect()
+    starts.into_par_iter().map(|(effect, shape)| joint(assembly, data, unit, effect, &shape)).collect()
+}
+
+/// Each effect once, in order.
+pub(super) fn each_once(effects: impl Iterator<Item = &'static str>) -> Vec<&'static str> {
+    let mut once = Vec::new();
+    for effect in effects {
+        if !once.contains(&effect) {
+            once.push(effect);
+        }
+    }
+    once
 }
