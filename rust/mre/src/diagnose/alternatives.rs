@@ -64,9 +64,9 @@ pub(super) fn rivals<'a>(
         // Likelihoods of a noise that is not known say nothing so fine.
         if apart && !named.noise.hidden() && fits_better(model, &named.fitted, data) { own } else { paid }
     };
-    let as_rivals: Vec<f64> = found.par_iter().map(as_rival).collect();
+    let behind: Vec<f64> = found.par_iter().map(|model| as_rival(model) - own).collect();
     let within = |far: f64| {
-        let near = found.iter().zip(&as_rivals).filter(move |(_, criterion)| **criterion <= own + far);
+        let near = found.iter().zip(&behind).filter(move |(_, behind)| **behind <= far);
         near.filter_map(|(model, _)| model.added()).filter(|effect| *effect != known.effect)
     };
     let close = each_once(within(APART));
@@ -79,12 +79,12 @@ pub(super) fn rivals<'a>(
     }
     let mut laws: BTreeMap<&str, usize> = BTreeMap::new();
     let mut rivals: Vec<Rival> = Vec::new();
-    for model in found {
+    for (model, behind) in found.into_iter().zip(behind) {
         let Some(About { effect, .. }) = model.law().filter(|about| *about != known) else { continue };
         let count = laws.entry(effect).or_default();
         *count += 1;
         if *count <= LAWS && (effect == known.effect || close.contains(&effect)) {
-            rivals.push(Rival { effect, place, model });
+            rivals.push(Rival { effect, place, model, behind });
         }
     }
     let (rivals, laws) = rivals.into_iter().partition(|rival| rival.effect != known.effect);

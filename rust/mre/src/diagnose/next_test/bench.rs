@@ -4,15 +4,15 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
-use super::doubt::{Doubt, Member, Told, told};
+use super::doubt::{Doubt, Member};
 use super::excitation::Kind;
 use super::imagined::Imagined;
 use super::limits::Limits;
+use super::told::{Told, against, told};
 use super::truth::{Truth, truths};
 use super::view::{Held, View};
 use super::world::{TOGETHER, World};
 use crate::assembly::{Assembly, Base};
-use crate::diagnose::alternatives::APART;
 use crate::diagnose::candidates::Candidate;
 use crate::diagnose::joint::{begun_anew, fit};
 use crate::diagnose::least_squares::Data;
@@ -37,6 +37,8 @@ pub(super) struct Bench<'b, 'a> {
     /// Of the recordings and of the test.
     noise: Noise,
     models: Vec<Candidate<'a>>,
+    /// By how much each is behind the one named.
+    behind: Vec<f64>,
     /// What may stand in each place in doubt.
     places: Vec<Vec<Member>>,
     /// What may be true, the model named at its best fit first.
@@ -55,7 +57,7 @@ impl<'b, 'a> Bench<'b, 'a> {
         let models = doubt.models(named);
         let data = Data { noise: &named.noise, rows, monitor };
         let held: Vec<Held> = models.par_iter().map(|model| Held::of(model, data)).collect();
-        let places = doubt.places(named, &criteria(&models));
+        let (places, behind) = (doubt.places(named), doubt.behind());
         let lacks = |model: usize| models[model].fitted.beyond_chance();
         let in_doubt = places.iter().flatten().flat_map(|member| member.may_be_true(lacks));
         let mut true_ones: Vec<(usize, f64)> = std::iter::once((0, 1.0)).chain(in_doubt).collect();
@@ -65,7 +67,7 @@ impl<'b, 'a> Bench<'b, 'a> {
             true_ones.par_iter().flat_map(|(i, share)| truths(*i, *share, &models[*i], &held[*i], data));
         let truths = truths.collect();
         let noise = named.noise.with_another_like(0);
-        Self { base, rows, monitor, noise, models, places, truths, held }
+        Self { base, rows, monitor, noise, models, behind, places, truths, held }
     }
 
     /// A test; `None` where the limits leave no room for it, or a model cannot follow it.
@@ -149,15 +151,10 @@ impl<'b, 'a> Bench<'b, 'a> {
     /// What is told, given criteria; what has none is ruled out by what has.
     fn told(&self, found: &Criteria) -> Told {
         let weights: Vec<(usize, f64)> = self.truths.iter().map(|t| (t.model, t.weight)).collect();
-        told(&self.places, &criteria(&self.models), &weights, |t, other| {
+        told(&self.places, &self.behind, &weights, |t, other| {
             let Some(criterion) = found.get(&(t, other)) else { return f64::INFINITY };
             let own = self.truths[t].model;
-            let difference = criterion - found[&(t, own)];
-            // One with more parameters is in doubt as long as it is better by Akaike's criterion.
-            let spared = self.models[other].fitted.spared(&self.models[own].fitted);
-            let difference = difference.min(difference - spared + APART);
-            // Where neither can follow the test, it tells nothing.
-            if difference.is_nan() { 0.0 } else { difference }
+            against(criterion - found[&(t, own)], self.models[other].fitted.spared(&self.models[own].fitted))
         })
     }
 
@@ -218,16 +215,4 @@ impl<'b, 'a> Bench<'b, 'a> {
     fn known_samples(&self) -> usize {
         self.models[0].fitted.rows.max(1)
     }
-}
-
-/// Criteria of models on the recordings, the one named first. One that is in doubt by Akaike's criterion alone may be true as
-/// well as that.
-fn criteria(models: &[Candidate]) -> Vec<f64> {
-    let named = &models[0].fitted;
-    let of = |model: &Candidate| {
-        let by_akaike = model.criterion() > named.criterion() + APART
-            && model.fitted.beyond_chance() < named.beyond_chance();
-        if by_akaike { named.criterion() } else { model.criterion() }
-    };
-    models.iter().map(of).collect()
 }

@@ -12,6 +12,7 @@ mod hidden;
 mod imagined;
 mod limits;
 mod telling;
+mod told;
 mod truth;
 mod view;
 mod world;

@@ -4,10 +4,10 @@
 use rayon::prelude::*;
 
 use super::bench::Bench;
-use super::doubt::Told;
 use super::excitation::{KINDS, Kind};
 use super::hidden::Hidden;
 use super::limits::Limits;
+use super::told::Told;
 use super::{NextTest, Prospect};
 
 /// A test that is harder to make has to rule out so many more effects.
