@@ -5,8 +5,10 @@ from collections.abc import Callable
 import mre_core
 import numpy as np
 import pytest
-from mre_core import Recording
+from mre_core import Diagnosis, Recording
+from mre_core.next_test import command
 from rig import slow
+from scipy.interpolate import CubicSpline  # type: ignore[import-untyped]
 from scipy.signal import butter, lfilter  # type: ignore[import-untyped]
 
 RATE, FINE = 200, 10
@@ -52,16 +54,36 @@ def dragging(x: np.ndarray, v: np.ndarray) -> np.ndarray:
     return force
 
 
+def moving_a_mass(x: np.ndarray, v: np.ndarray) -> np.ndarray:
+    """A spring, a dashpot and a mass on a lever, the more the further it moves."""
+    force: np.ndarray = 6.0 * x + 0.3 * v + (0.004 + 0.00024 * x**2) * np.gradient(v, 1 / (RATE * FINE))
+    return force
+
+
+def recorded(
+    device: Device, motion: tuple[np.ndarray, np.ndarray, np.ndarray], noise: np.ndarray, name: str
+) -> Recording:
+    """A motion at ten times the rate, and the force of the device with noise."""
+    t, x, v = motion
+    force = device(x, v)[::FINE] + noise
+    return Recording(t[::FINE], x[::FINE], force, velocity=v[::FINE], name=name)
+
+
+def campaign(device: Device, *, highest: float, noise: float, memory: float, seed: int) -> list[Recording]:
+    """Four recordings of 8 s."""
+    found = []
+    for k in range(4):
+        motion = moved(10 * seed + k, highest)
+        rest = noise * slow(np.random.default_rng([seed, k]), len(motion[0][::FINE]), memory)
+        found.append(recorded(device, motion, rest, f"r{k}"))
+    return found
+
+
 def in_the_place_of_one(
     device: Device, *, highest: float, noise: float, memory: float, seed: int
 ) -> set[str]:
     """The one effect named, and those that are not told from it."""
-    recordings = []
-    for k in range(4):
-        t, x, v = moved(10 * seed + k, highest)
-        force = device(x, v)[::FINE]
-        force = force + noise * slow(np.random.default_rng([seed, k]), len(force), memory)
-        recordings.append(Recording(t[::FINE], x[::FINE], force, velocity=v[::FINE], name=f"r{k}"))
+    recordings = campaign(device, highest=highest, noise=noise, memory=memory, seed=seed)
     found = mre_core.diagnose(recordings, "kelvin_voigt", seed=1)
     assert found.verdict == "missing_physics"
     (effect,) = found.effects
@@ -84,3 +106,26 @@ def test_a_larger_form_of_the_one_named_is_no_other_effect(seed: int) -> None:
     """Friction that falls with the speed by nothing fits as well as one that does not, and is the same."""
     named = in_the_place_of_one(dragging, highest=2.0, noise=0.2, memory=0.0, seed=seed)
     assert named == {"coulomb_friction"}
+
+
+def beside(found: Diagnosis, effect: str) -> tuple[str, ...]:
+    """Effects that are not told from one that was named."""
+    (others,) = [one.indistinguishable_from for one in found.effects if one.id == effect]
+    return others
+
+
+def test_a_test_is_proposed_where_no_law_is_exact_and_tells() -> None:
+    """A delay is nearly as good as a mass that grows, as long as neither is exact."""
+    recordings = campaign(moving_a_mass, highest=2.0, noise=0.03, memory=0.0, seed=1)
+    before = mre_core.diagnose(recordings, "kelvin_voigt", seed=1)
+    assert beside(before, "inertia") == ("time_delay",)
+    proposed = before.next_test
+    assert proposed is not None
+    assert "time_delay" in proposed["separates"] and proposed["leaves"]["inertia"] == []
+
+    signal = command(proposed)
+    t = np.arange(0.0, signal.time[-1], 1 / (RATE * FINE))
+    x = CubicSpline(signal.time, signal.displacement)
+    noise = 0.03 * np.random.default_rng(9).standard_normal(len(t[::FINE]))
+    test = recorded(moving_a_mass, (t, x(t), x(t, 1)), noise, "test")
+    assert beside(mre_core.diagnose([*recordings, test], "kelvin_voigt", seed=1), "inertia") == ()

@@ -26,7 +26,7 @@ class Resolved:
     excitation: str | None = None
     """Kind of the proposed test."""
     expected: float | None = None
-    """Chance, as the tool gives it, that one effect alone is left; none of rivals that are nearly as good."""
+    """Chance, as the tool gives it, that one effect alone is left."""
     left: frozenset[str] | None = None
     """What the tool expects to be left in doubt beside the truth; None: it expects nothing of it."""
 

@@ -69,9 +69,8 @@ pub(super) fn rivals<'a>(
         let near = found.iter().zip(&behind).filter(move |(_, behind)| **behind <= far);
         near.filter_map(|(model, _)| model.added()).filter(|effect| *effect != known.effect)
     };
-    let close = each_once(within(APART));
+    let mut effects = each_once(within(APART));
     // Of those that are nearly as good the best.
-    let mut effects = close.clone();
     for effect in within(left) {
         if effects.len() < MOST && !effects.contains(&effect) {
             effects.push(effect);
@@ -83,7 +82,7 @@ pub(super) fn rivals<'a>(
         let Some(About { effect, .. }) = model.law().filter(|about| *about != known) else { continue };
         let count = laws.entry(effect).or_default();
         *count += 1;
-        if *count <= LAWS && (effect == known.effect || close.contains(&effect)) {
+        if *count <= LAWS && (effect == known.effect || effects.contains(&effect)) {
             rivals.push(Rival { effect, place, model, behind });
         }
     }

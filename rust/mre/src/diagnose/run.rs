@@ -74,7 +74,7 @@ pub fn run<'a>(
         (proof(&begun.assembly, &base_fit), proof(&named.assembly, &named.fitted))
     });
     let hidden = absorbed.iter().map(|a| a.effect).collect();
-    let mut doubt = Doubt { rivals: Vec::new(), laws: Vec::new(), hidden };
+    let mut doubt = Doubt { rivals: Vec::new(), laws: Vec::new(), hidden, left: evidence.left };
     let after = proofs.as_ref().map(|p| &p.1);
     let effects = effects(&search, &named, judged, after, evidence.left, &mut doubt);
     let verdict = evidence.beside_rivals(verdict, effects.iter().any(|effect| !effect.rivals.is_empty()));

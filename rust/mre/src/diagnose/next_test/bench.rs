@@ -36,9 +36,8 @@ pub(super) struct Bench<'b, 'a> {
     monitor: &'b dyn Monitor,
     /// Of the recordings and of the test.
     noise: Noise,
+    doubt: &'b Doubt<'a>,
     models: Vec<Candidate<'a>>,
-    /// By how much each is behind the one named.
-    behind: Vec<f64>,
     /// What may stand in each place in doubt.
     places: Vec<Vec<Member>>,
     /// What may be true, the model named at its best fit first.
@@ -50,14 +49,14 @@ impl<'b, 'a> Bench<'b, 'a> {
     pub(super) fn new(
         named: &Named<'a>,
         base: &'b Base,
-        doubt: &Doubt<'a>,
+        doubt: &'b Doubt<'a>,
         rows: &'b [Rows],
         monitor: &'b dyn Monitor,
     ) -> Self {
         let models = doubt.models(named);
         let data = Data { noise: &named.noise, rows, monitor };
         let held: Vec<Held> = models.par_iter().map(|model| Held::of(model, data)).collect();
-        let (places, behind) = (doubt.places(named), doubt.behind());
+        let places = doubt.places(named);
         let lacks = |model: usize| models[model].fitted.beyond_chance();
         let in_doubt = places.iter().flatten().flat_map(|member| member.may_be_true(lacks));
         let mut true_ones: Vec<(usize, f64)> = std::iter::once((0, 1.0)).chain(in_doubt).collect();
@@ -67,7 +66,7 @@ impl<'b, 'a> Bench<'b, 'a> {
             true_ones.par_iter().flat_map(|(i, share)| truths(*i, *share, &models[*i], &held[*i], data));
         let truths = truths.collect();
         let noise = named.noise.with_another_like(0);
-        Self { base, rows, monitor, noise, models, behind, places, truths, held }
+        Self { base, rows, monitor, noise, doubt, models, places, truths, held }
     }
 
     /// A test; `None` where the limits leave no room for it, or a model cannot follow it.
@@ -79,7 +78,7 @@ impl<'b, 'a> Bench<'b, 'a> {
 
     /// What the test tells to first order: every model bends as far as the recordings let it.
     pub(super) fn glance(&self, test: &Imagined) -> Option<Told> {
-        let told = self.told(&self.at_a_glance(test)?);
+        let told = self.told(test, &self.at_a_glance(test)?);
         self.monitor.whole(told)
     }
 
@@ -102,7 +101,7 @@ impl<'b, 'a> Bench<'b, 'a> {
             let all = lacks.into_iter().flatten().chain([(self.truths[t].model, own)]);
             all.map(|(model, criterion)| ((t, model), criterion)).collect::<Vec<_>>()
         });
-        self.monitor.whole(self.told(&found.collect()))
+        self.monitor.whole(self.told(test, &found.collect()))
     }
 
     /// Criteria to first order of models where truths show their forces.
@@ -120,10 +119,9 @@ impl<'b, 'a> Bench<'b, 'a> {
             models.chunks(TOGETHER).zip(self.held.chunks(TOGETHER)).flat_map(some).collect();
         let truths: Vec<&Candidate> = self.truths.iter().map(|truth| &truth.candidate).collect();
         let seen = world.simulated(&truths)?;
-        let more = (self.known_samples() + test.signal().time.len()) as f64 / self.known_samples() as f64;
         let criterion = |t: usize, model: usize| {
             let fitted = &self.models[model].fitted;
-            let price = fitted.parameters() as f64 * more.ln();
+            let price = fitted.parameters() as f64 * self.longer(test).ln();
             let truth = &self.truths[t];
             let lack = if truth.model == model {
                 // Between its samples it may move on.
@@ -149,12 +147,14 @@ impl<'b, 'a> Bench<'b, 'a> {
     }
 
     /// What is told, given criteria; what has none is ruled out by what has.
-    fn told(&self, found: &Criteria) -> Told {
+    fn told(&self, test: &Imagined, found: &Criteria) -> Told {
+        let needed = self.doubt.needed(self.longer(test));
         let weights: Vec<(usize, f64)> = self.truths.iter().map(|t| (t.model, t.weight)).collect();
-        told(&self.places, &self.behind, &weights, |t, other| {
+        told(&self.places, &self.doubt.behind(), &weights, |t, other| {
             let Some(criterion) = found.get(&(t, other)) else { return f64::INFINITY };
             let own = self.truths[t].model;
-            against(criterion - found[&(t, own)], self.models[other].fitted.spared(&self.models[own].fitted))
+            let spared = self.models[other].fitted.spared(&self.models[own].fitted);
+            against(criterion - found[&(t, own)], spared) - needed
         })
     }
 
@@ -212,7 +212,9 @@ impl<'b, 'a> Bench<'b, 'a> {
         )
     }
 
-    fn known_samples(&self) -> usize {
-        self.models[0].fitted.rows.max(1)
+    /// Samples with a test over those without.
+    fn longer(&self, test: &Imagined) -> f64 {
+        let known = self.models[0].fitted.rows.max(1);
+        (known + test.signal().time.len()) as f64 / known as f64
     }
 }

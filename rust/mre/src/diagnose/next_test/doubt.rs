@@ -1,5 +1,6 @@
 //! What is in doubt: effects that may stand in the place of one that was named, and the models of each.
 
+use crate::diagnose::alternatives::APART;
 use crate::diagnose::candidates::Candidate;
 use crate::diagnose::search::Named;
 
@@ -15,7 +16,7 @@ pub(in super::super) struct Rival<'a> {
     /// Place of the effect named, instead of which it stands.
     pub(in super::super) place: usize,
     pub(in super::super) model: Candidate<'a>,
-    /// By how much its criterion is behind that of the one named, as far as that speaks against it.
+    /// By how much its criterion is behind that of the one named.
     pub(in super::super) behind: f64,
 }
 
@@ -27,6 +28,9 @@ pub(in super::super) struct Doubt<'a> {
     pub(in super::super) laws: Vec<Rival<'a>>,
     /// Ids of effects that the recordings would hide.
     pub(in super::super) hidden: Vec<&'static str>,
+    /// What the model named leaves of the recordings beyond chance, in squared standard deviations: where no law is exact, a
+    /// difference below that tells nothing.
+    pub(in super::super) left: f64,
 }
 
 impl<'a> Doubt<'a> {
@@ -36,9 +40,16 @@ impl<'a> Doubt<'a> {
         std::iter::once(named.itself()).chain(others).collect()
     }
 
-    /// By how much each of these is behind.
+    /// By how much each of these is behind, as far as that speaks against it.
     pub(super) fn behind(&self) -> Vec<f64> {
-        std::iter::once(0.0).chain(self.laws.iter().chain(&self.rivals).map(|rival| rival.behind)).collect()
+        let counts = |rival: &Rival| (rival.behind - self.left).max(rival.behind.min(0.0));
+        std::iter::once(0.0).chain(self.laws.iter().chain(&self.rivals).map(counts)).collect()
+    }
+
+    /// Evidence that a test needs beyond what tells exact laws apart: an error of the law goes on in it. `longer`: samples
+    /// with it over those without.
+    pub(super) fn needed(&self, longer: f64) -> f64 {
+        (longer * self.left - APART).max(0.0)
     }
 
     /// What may stand in each place in doubt, the effect named first.
@@ -105,6 +116,14 @@ impl Member {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn where_no_law_is_exact_differences_below_its_error_tell_nothing() {
+        let doubt = |left: f64| Doubt { rivals: Vec::new(), laws: Vec::new(), hidden: Vec::new(), left };
+        assert_eq!(doubt(0.0).needed(2.0), 0.0);
+        // As much as is listed for being nearly as good when the test is there: evidence of 60 in all.
+        assert_eq!(doubt(30.0).needed(2.0), 60.0 - APART);
+    }
 
     #[test]
     fn another_law_may_be_true_as_far_as_it_fits() {
