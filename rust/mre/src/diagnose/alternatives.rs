@@ -8,6 +8,7 @@ use super::candidates::{Candidate, candidates, scores, smallest};
 use super::intervals::estimates;
 use super::least_squares::{Data, Fitted};
 use super::next_test::Rival;
+use super::noise::Noise;
 use super::other_laws::{doubted, each_once, fits, unfitted};
 use super::search::{Named, REFITTED, Search};
 use super::strained::strained;
@@ -27,15 +28,15 @@ const LAWS: usize = 10;
 pub(super) struct Alternatives<'a> {
     /// Ids of effects that cannot be told from it.
     pub(super) effects: Vec<&'static str>,
-    /// Models of those that fit as well within the noise.
+    /// Models of those.
     pub(super) rivals: Vec<Rival<'a>>,
     /// Other laws of the effect named.
     pub(super) laws: Vec<Rival<'a>>,
 }
 
 /// Models with another law in the place of an effect that was named: those of other effects, of which one law at least
-/// fits as well within the noise, and other laws of the same. A law that only its number of parameters rules out now may
-/// be the one that a further test leaves.
+/// fits as well within the noise or nearly where no law is exact, and other laws of the same. A law that only its number of
+/// parameters rules out now may be the one that a further test leaves.
 ///
 /// `left` is what the model named leaves beyond chance, in squared standard deviations: where no law is exact, one that
 /// leaves less than twice as much may be nearer to the truth all the same.
@@ -61,8 +62,7 @@ pub(super) fn rivals<'a>(
     let as_rival = |model: &Candidate| {
         let paid = model.as_the_smallest();
         let apart = model.added() != Some(known.effect) && paid > own + APART;
-        // Likelihoods of a noise that is not known say nothing so fine.
-        if apart && !named.noise.hidden() && fits_better(model, &named.fitted, data) { own } else { paid }
+        if apart && fits_better(model, &named.fitted, data) { own } else { paid }
     };
     let behind: Vec<f64> = found.par_iter().map(|model| as_rival(model) - own).collect();
     let within = |far: f64| {
@@ -94,10 +94,17 @@ pub(super) fn rivals<'a>(
 /// which is true (IEEE Trans. Autom. Control 19 (1974) 716). Not so where its law is pressed to an end of its range, or the
 /// parameter that makes it this effect cannot be told from nothing: there it is a larger form of another.
 fn fits_better(model: &Candidate, known: &Fitted, data: Data) -> bool {
-    let Some((last, law)) = model.assembly.effects().iter().enumerate().next_back() else { return false };
-    // A column in every recording fits better by its number.
-    if law.of_the_measurement() || model.fitted.beyond_chance() >= known.beyond_chance() {
+    let better = model.fitted.beyond_chance() < known.beyond_chance();
+    if !better || !may_fit_better(model, data.noise) {
         return false;
     }
+    let last = model.assembly.effects().len() - 1;
     strained(&model.assembly, &estimates(&model.assembly, data, &model.fitted.unit), last).is_empty()
+}
+
+/// True where a better fit may speak for a last law with more parameters: likelihoods of a noise that is not known say
+/// nothing so fine, and a column in every recording fits better by its number.
+pub(super) fn may_fit_better(model: &Candidate, noise: &Noise) -> bool {
+    let law = model.assembly.effects().last();
+    !noise.hidden() && law.is_some_and(|law| !law.of_the_measurement())
 }

@@ -76,7 +76,7 @@ pub fn run<'a>(
     let hidden = absorbed.iter().map(|a| a.effect).collect();
     let mut doubt = Doubt { rivals: Vec::new(), laws: Vec::new(), hidden, left: evidence.left };
     let after = proofs.as_ref().map(|p| &p.1);
-    let effects = effects(&search, &named, judged, after, evidence.left, &mut doubt);
+    let effects = effects(&search, &named, judged, after, &mut doubt);
     let verdict = evidence.beside_rivals(verdict, effects.iter().any(|effect| !effect.rivals.is_empty()));
     // Where effects leave no more, there is nothing to describe.
     let whole = verdict == Verdict::PartlyExplained && !evidence.approximate();
@@ -114,7 +114,6 @@ fn effects<'a>(
     named: &Named<'a>,
     splits: &[Split],
     after: Option<&Proof>,
-    left: f64,
     doubt: &mut Doubt<'a>,
 ) -> Vec<Effect> {
     let monitor = search.monitor;
@@ -124,7 +123,7 @@ fn effects<'a>(
         let told = monitor.stage(Stage::Alternatives, || {
             let without = search.drop(named, effect.place);
             let before = prove(&without.assembly, &named.noise, splits, &without.fitted, monitor);
-            (before.held_out_rms, rivals(search, named, effect.place, left, search.data(&named.noise)))
+            (before.held_out_rms, rivals(search, named, effect.place, doubt.left, search.data(&named.noise)))
         });
         let Some((before, Alternatives { effects, rivals, laws })) = told else { break };
         effect.held_out = Some(HeldOut { before, after: after.held_out_rms });

@@ -8,11 +8,12 @@ use super::doubt::{Doubt, Member};
 use super::excitation::Kind;
 use super::imagined::Imagined;
 use super::limits::Limits;
-use super::told::{Told, against, told};
+use super::told::{Evidence, Told, told};
 use super::truth::{Truth, truths};
 use super::view::{Held, View};
 use super::world::{TOGETHER, World};
 use crate::assembly::{Assembly, Base};
+use crate::diagnose::alternatives::may_fit_better;
 use crate::diagnose::candidates::Candidate;
 use crate::diagnose::joint::{begun_anew, fit};
 use crate::diagnose::least_squares::Data;
@@ -148,13 +149,17 @@ impl<'b, 'a> Bench<'b, 'a> {
 
     /// What is told, given criteria; what has none is ruled out by what has.
     fn told(&self, test: &Imagined, found: &Criteria) -> Told {
-        let needed = self.doubt.needed(self.longer(test));
+        // An error of the law goes on in the test.
+        let left = self.longer(test) * self.doubt.left;
         let weights: Vec<(usize, f64)> = self.truths.iter().map(|t| (t.model, t.weight)).collect();
         told(&self.places, &self.doubt.behind(), &weights, |t, other| {
-            let Some(criterion) = found.get(&(t, other)) else { return f64::INFINITY };
+            let Some(criterion) = found.get(&(t, other)) else { return Evidence::ALL };
             let own = self.truths[t].model;
-            let spared = self.models[other].fitted.spared(&self.models[own].fitted);
-            against(criterion - found[&(t, own)], spared) - needed
+            let (own, criterion) = (&self.models[own], criterion - found[&(t, own)]);
+            let other = &self.models[other];
+            let fine = may_fit_better(other, &self.noise);
+            let spared = if fine { other.fitted.spared(&own.fitted) } else { 0.0 };
+            Evidence::new(criterion, spared, left)
         })
     }
 

@@ -1,6 +1,5 @@
 //! What is in doubt: effects that may stand in the place of one that was named, and the models of each.
 
-use crate::diagnose::alternatives::APART;
 use crate::diagnose::candidates::Candidate;
 use crate::diagnose::search::Named;
 
@@ -9,7 +8,7 @@ const UNLIKELY: f64 = 0.1;
 /// Laws of an effect that are imagined at most beside the likeliest.
 const OTHER_LAWS: usize = 3;
 
-/// A model that fits about as well as the one named, with a law in the place of one of its own.
+/// A model that fits about as well as the one named, or nearly where no law is exact, with a law in the place of one of its own.
 pub(in super::super) struct Rival<'a> {
     /// Effect of this law.
     pub(in super::super) effect: &'static str,
@@ -42,14 +41,8 @@ impl<'a> Doubt<'a> {
 
     /// By how much each of these is behind, as far as that speaks against it.
     pub(super) fn behind(&self) -> Vec<f64> {
-        let counts = |rival: &Rival| (rival.behind - self.left).max(rival.behind.min(0.0));
-        std::iter::once(0.0).chain(self.laws.iter().chain(&self.rivals).map(counts)).collect()
-    }
-
-    /// Evidence that a test needs beyond what tells exact laws apart: an error of the law goes on in it. `longer`: samples
-    /// with it over those without.
-    pub(super) fn needed(&self, longer: f64) -> f64 {
-        (longer * self.left - APART).max(0.0)
+        let others = self.laws.iter().chain(&self.rivals).map(|rival| counted(rival.behind, self.left));
+        std::iter::once(0.0).chain(others).collect()
     }
 
     /// What may stand in each place in doubt, the effect named first.
@@ -113,16 +106,20 @@ impl Member {
     }
 }
 
+/// What a difference in the criterion counts, where no law is exact by so much.
+fn counted(behind: f64, left: f64) -> f64 {
+    (behind - left).max(behind.min(0.0))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn where_no_law_is_exact_differences_below_its_error_tell_nothing() {
-        let doubt = |left: f64| Doubt { rivals: Vec::new(), laws: Vec::new(), hidden: Vec::new(), left };
-        assert_eq!(doubt(0.0).needed(2.0), 0.0);
-        // As much as is listed for being nearly as good when the test is there: evidence of 60 in all.
-        assert_eq!(doubt(30.0).needed(2.0), 60.0 - APART);
+    fn differences_that_an_inexact_law_leaves_speak_against_none() {
+        let counted = |left| [-3.0, 5.0, 40.0].map(|behind| counted(behind, left));
+        assert_eq!(counted(0.0), [-3.0, 5.0, 40.0]);
+        assert_eq!(counted(30.0), [-3.0, 0.0, 10.0]);
     }
 
     #[test]

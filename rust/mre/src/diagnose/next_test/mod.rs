@@ -25,6 +25,7 @@ use crate::assembly::Base;
 use bench::Bench;
 use hidden::Hidden;
 use telling::to_tell;
+use told::EVEN;
 
 pub(super) use doubt::{Doubt, Rival};
 pub use excitation::{KINDS, Kind, Signal};
@@ -77,6 +78,24 @@ pub struct NextTest {
     pub prospects: Vec<Prospect>,
 }
 
+impl NextTest {
+    /// True where the proposed one is likely to rule something out.
+    fn tells(&self) -> bool {
+        self.prospects.first().is_some_and(|best| best.chances.iter().any(|(_, chance)| *chance >= EVEN))
+    }
+
+    /// With what another is expected to tell of what is in doubt.
+    fn telling_no_more_than(mut self, other: &Self) -> Self {
+        if let (Some(first), Some(other)) = (self.prospects.first_mut(), other.prospects.first()) {
+            let shown = std::mem::take(&mut first.chances);
+            let of_rivals = other.chances.iter().filter(|(id, _)| shown.iter().all(|(known, _)| known != id));
+            first.chances = of_rivals.copied().chain(shown.iter().copied()).collect();
+            (first.leaves, first.certainty) = (other.leaves.clone(), other.certainty);
+        }
+        self
+    }
+}
+
 /// The best of the excitations within the limits given, or near those of the recordings.
 pub(super) fn propose<'a>(
     named: &Named<'a>,
@@ -95,7 +114,11 @@ pub(super) fn propose<'a>(
     if doubt.rivals.is_empty() {
         to_show(&bench, &limits, &hidden)
     } else {
-        to_tell(&bench, &limits.wider(&settings.limits), &hidden)
+        let told = to_tell(&bench, &limits.wider(&settings.limits), &hidden)?;
+        if hidden.ids.is_empty() || told.tells() {
+            return Some(told);
+        }
+        to_show(&bench, &limits, &hidden).map(|shown| shown.telling_no_more_than(&told))
     }
 }
 
