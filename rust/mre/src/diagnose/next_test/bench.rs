@@ -155,11 +155,11 @@ impl<'b, 'a> Bench<'b, 'a> {
         told(&self.places, &self.doubt.behind(), &weights, |t, other| {
             let Some(criterion) = found.get(&(t, other)) else { return Evidence::ALL };
             let own = self.truths[t].model;
-            let (own, criterion) = (&self.models[own], criterion - found[&(t, own)]);
-            let other = &self.models[other];
-            let fine = may_fit_better(other, &self.noise);
-            let spared = if fine { other.fitted.spared(&own.fitted) } else { 0.0 };
-            Evidence::new(criterion, spared, left)
+            let difference = criterion - found[&(t, own)];
+            let (own, other) = (&self.models[own], &self.models[other]);
+            let better = may_fit_better(other, &self.noise);
+            let spared = if better { other.fitted.spared(&own.fitted) } else { 0.0 };
+            Evidence::new(difference, spared, left)
         })
     }
 

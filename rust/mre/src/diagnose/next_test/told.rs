@@ -36,7 +36,7 @@ pub(super) struct Evidence {
 }
 
 impl Evidence {
-    /// Against a model that the test cannot be followed by.
+    /// Against a model that cannot follow the test.
     pub(super) const ALL: Self = Self { difference: f64::INFINITY, least: APART };
 
     /// `spared` is what the parameters that the model has more cost beyond Akaike's criterion, which keeps it in doubt as long
