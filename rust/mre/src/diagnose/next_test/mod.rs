@@ -106,7 +106,10 @@ pub(super) fn propose<'a>(
     monitor: &dyn Monitor,
 ) -> Option<NextTest> {
     let limits = Limits::of(&settings.limits, named.assembly.campaign());
-    let hidden = Hidden::new(&doubt.hidden, named, settings);
+    // Of a rival it is asked whether it is told, not whether it shows.
+    let is_rival = |id: &&'static str| doubt.rivals.iter().any(|rival| rival.effect == *id);
+    let ids: Vec<&'static str> = doubt.hidden.iter().copied().filter(|id| !is_rival(id)).collect();
+    let hidden = Hidden::new(&ids, named, settings);
     if doubt.rivals.is_empty() && hidden.ids.is_empty() {
         return None;
     }

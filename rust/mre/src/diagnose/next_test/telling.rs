@@ -154,10 +154,8 @@ fn proposed(
     };
     let tellings = std::iter::once(&all[best]).chain(others);
     let mut prospects: Vec<Prospect> = tellings.filter_map(prospect).collect();
-    let first = prospects.first_mut()?;
-    let mut shown = hidden.shown(bench, &bench.imagine(all[best].kind, limits)?).unwrap_or_default();
-    shown.retain(|(hidden, _)| first.chances.iter().all(|(rival, _)| rival != hidden));
-    first.chances.extend(shown);
+    let shown = hidden.shown(bench, &bench.imagine(all[best].kind, limits)?);
+    prospects.first_mut()?.chances.extend(shown.unwrap_or_default());
     Some(NextTest { limits: limits.clone(), prospects })
 }
 
