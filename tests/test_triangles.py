@@ -112,7 +112,8 @@ def test_a_velocity_that_swings_beside_a_hold_is_no_free_play(seed: int) -> None
 def test_of_a_smooth_motion_only_the_ends_are_left_out() -> None:
     t = np.arange(2000) / 200
     rng = np.random.default_rng(4)
-    x = 5 * np.sin(2 * np.pi * t)
+    # No sample is at a turn.
+    x = 5 * np.sin(2 * np.pi * 1.003 * t)
     v = np.gradient(x, t)
     force = 3 * x + 0.2 * v + 0.1 * rng.normal(size=t.size)
     derived = Recording(t, x + 0.005 * rng.normal(size=t.size), force, name="derived")
@@ -126,7 +127,7 @@ def test_what_is_not_scored_is_not_left_out_as_well() -> None:
     t = np.arange(3000) / 200
     rng = np.random.default_rng(4)
     # It ends smoothly: nothing is left out there.
-    x = 5 * np.sin(np.pi * np.minimum(t / 6, 0.5)) ** 2 * np.sin(2 * np.pi * t)
+    x = 5 * np.sin(np.pi * np.minimum(t / 6, 0.5)) ** 2 * np.sin(2 * np.pi * 1.003 * t)
     force = 3 * x + 0.2 * np.gradient(x, t) + 0.1 * rng.normal(size=t.size)
     whole = Recording(t, x + 0.005 * rng.normal(size=t.size), force, name="ramp")
     without_start = whole.exclude("start_transient")

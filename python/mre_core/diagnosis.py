@@ -137,7 +137,8 @@ class Diagnosis:
     (`by_effect`)."""
     left_out: Mapping[str, int] = field(default_factory=dict)
     """Samples by recording that no fit, test or rms counts: near corners, too sharp turns and ends
-    of a motion without a recorded velocity, where the one that can be derived is wrong or noisy."""
+    of a motion without a recorded velocity, where the one that can be derived is wrong or noisy, and those at
+    the very turn of a motion, where the sign of the velocity is not known."""
     refitted: Refitted | None = None
     """Where the parameters of a base without effects were kept, something is missing, and fitted ones leave
     less."""

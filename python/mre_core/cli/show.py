@@ -74,7 +74,7 @@ def print_diagnosis(found: "Diagnosis") -> None:
         count = sum(found.left_out.values())
         out.print(
             f"{count} samples near corners, turns and ends of a motion are left out: "
-            "the velocity that can be derived there is wrong or noisy"
+            "the velocity there is wrong or noisy, or its sign is not known"
         )
     _print_comparison(found, out)
     if found.blank is not None:

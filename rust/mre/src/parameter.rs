@@ -32,6 +32,13 @@ pub struct Parameter {
     pub ideal: Ideal,
 }
 
+impl Parameter {
+    /// True where this value in the unit box is an ideal of its law.
+    pub(crate) fn is_ideal(&self, unit: f64) -> bool {
+        (unit <= 0.0 && self.ideal.lower) || (unit >= 1.0 && self.ideal.upper)
+    }
+}
+
 /// Which bounds of a parameter are ideals.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Ideal {

@@ -14,7 +14,8 @@ const ALIKE: f64 = 1.2;
 /// In what a motion is not to be trusted.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Doubts {
-    /// Samples near a corner, a bend or an end, in rising order: the velocity is wrong or noisy there, and no fit counts them.
+    /// Samples near a corner, a bend or an end, where the velocity is wrong or noisy, and at turns, where its sign is not known, in
+    /// rising order: no fit counts them.
     pub(crate) left_out: Vec<Range<usize>>,
     /// Parts of the displacement, mm, and of the velocity, mm/s, that are noise or may hold some. The force does not
     /// follow it, and an effect that attenuates what is fast would seem to explain that.
@@ -34,7 +35,7 @@ type Motion = (Vec<f64>, Vec<f64>, Doubts);
 /// memory would seem to explain it.
 pub(super) fn of_one_motion(recording: &Recording) -> (Arc<Recording>, Doubts) {
     let (time, x, v) = (recording.time(), recording.displacement(), recording.velocity());
-    let (displacement, velocity, doubts) = if recording.velocity_window().is_some() {
+    let (displacement, velocity, mut doubts) = if recording.velocity_window().is_some() {
         of_derived(time, x, velocity::from_displacement(time, x))
     } else {
         let recorded = velocity::smoothed(time, x, v);
@@ -44,6 +45,8 @@ pub(super) fn of_one_motion(recording: &Recording) -> (Arc<Recording>, Doubts) {
             (displacement, velocity, Doubts { left, ..Doubts::default() })
         })
     };
+    doubts.left_out.extend(velocity::turns(&velocity));
+    doubts.left_out = velocity::joined(doubts.left_out);
     (Arc::new(recording.seen_with(displacement, velocity, None)), doubts)
 }
 

@@ -78,12 +78,12 @@ pub(super) fn rivals<'a>(
     }
     let mut laws: BTreeMap<&str, usize> = BTreeMap::new();
     let mut rivals: Vec<Rival> = Vec::new();
-    for (model, behind) in found.into_iter().zip(behind) {
+    for model in found {
         let Some(About { effect, .. }) = model.law().filter(|about| *about != known) else { continue };
         let count = laws.entry(effect).or_default();
         *count += 1;
         if *count <= LAWS && (effect == known.effect || effects.contains(&effect)) {
-            rivals.push(Rival { effect, place, model, behind });
+            rivals.push(Rival { effect, place, model });
         }
     }
     let (rivals, laws) = rivals.into_iter().partition(|rival| rival.effect != known.effect);

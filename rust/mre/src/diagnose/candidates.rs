@@ -9,7 +9,7 @@ use super::drift::{beside, without_drift};
 use super::extrapolated::{Beside, Extent};
 use super::gaps::LeftOut;
 use super::joint::{joint, unbent};
-use super::least_squares::{Data, Fitted};
+use super::least_squares::{AKAIKE, Data, Fitted};
 use super::noise::Noise;
 use super::null::Null;
 use super::other_laws;
@@ -23,7 +23,6 @@ use super::slow::temper;
 use super::starts::{calm, without_initial_state};
 use crate::assembly::{Assembly, Campaign};
 use crate::effect::{About, CATALOGUE, Effect};
-use crate::parameter::Parameter;
 
 /// The best of them are also fitted from other shapes of the base.
 const UNBENT: usize = 2;
@@ -81,14 +80,20 @@ impl Candidate<'_> {
 /// The criterion of a model whose effect at a place pays for no parameter that stands at an ideal of its own: there it
 /// is a smaller law.
 pub(super) fn smallest(assembly: &Assembly, fitted: &Fitted, place: usize) -> f64 {
-    let sizes = assembly.campaign().sizes();
-    let counts: Vec<usize> = assembly.effects().iter().map(|e| e.shape(sizes).len()).collect();
-    let (after, own) = (counts.iter().skip(place + 1).sum(), counts.get(place).copied().unwrap_or(0));
-    let idle =
-        |(p, unit): &(&Parameter, &f64)| (**unit <= 0.0 && p.ideal.lower) || (**unit >= 1.0 && p.ideal.upper);
-    let shapes = assembly.shapes();
-    let idle = shapes.iter().zip(&fitted.unit).rev().skip(after).take(own).filter(idle).count();
-    fitted.criterion() - fitted.price() * idle as f64
+    fitted.criterion() - fitted.price() * idle(assembly, fitted, place) as f64
+}
+
+/// The same by Akaike's criterion: what a parameter costs where one law is to be named says little of which is true (IEEE
+/// Trans. Autom. Control 19 (1974) 716).
+pub(super) fn beyond_chance(assembly: &Assembly, fitted: &Fitted, place: usize) -> f64 {
+    fitted.beyond_chance() - AKAIKE * idle(assembly, fitted, place) as f64
+}
+
+/// Parameters of an effect that stand at an ideal of their own.
+fn idle(assembly: &Assembly, fitted: &Fitted, place: usize) -> usize {
+    let (_, own) = assembly.of_effect(place);
+    let all = assembly.shapes()[own.clone()].iter().zip(&fitted.unit[own]);
+    all.filter(|(p, unit)| p.is_ideal(**unit)).count()
 }
 
 /// Advantage in the criterion that counts between candidates that explain so much.

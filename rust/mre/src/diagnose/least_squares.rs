@@ -13,7 +13,7 @@ const MOST: usize = 25;
 /// The search ends when a step gains less than this (in squared standard deviations).
 const LEAST_GAIN: f64 = 1e-2;
 /// What a parameter costs in the criterion of Akaike.
-const AKAIKE: f64 = 2.0;
+pub(super) const AKAIKE: f64 = 2.0;
 
 /// An assembly with fitted parameters.
 #[derive(Debug, Clone)]

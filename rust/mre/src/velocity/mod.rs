@@ -26,6 +26,7 @@ mod rest;
 mod smoothing;
 mod stencil;
 mod together;
+mod turns;
 mod window;
 
 use std::ops::Range;
@@ -44,6 +45,7 @@ pub(crate) use recorded::{Smoothed, smoothed};
 pub use smoothing::Smoothing;
 use stencil::grid;
 pub(crate) use together::Together;
+pub(crate) use turns::turns;
 use window::Window;
 
 /// Terms of the polynomials that are tried between corners.

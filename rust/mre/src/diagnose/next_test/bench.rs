@@ -37,8 +37,11 @@ pub(super) struct Bench<'b, 'a> {
     monitor: &'b dyn Monitor,
     /// Of the recordings and of the test.
     noise: Noise,
-    doubt: &'b Doubt<'a>,
+    /// What the model named leaves of the recordings beyond chance.
+    left: f64,
     models: Vec<Candidate<'a>>,
+    /// By how much each is less likely than the one named.
+    behind: Vec<f64>,
     /// What may stand in each place in doubt.
     places: Vec<Vec<Member>>,
     /// What may be true, the model named at its best fit first.
@@ -50,16 +53,16 @@ impl<'b, 'a> Bench<'b, 'a> {
     pub(super) fn new(
         named: &Named<'a>,
         base: &'b Base,
-        doubt: &'b Doubt<'a>,
+        doubt: &Doubt<'a>,
         rows: &'b [Rows],
         monitor: &'b dyn Monitor,
     ) -> Self {
         let models = doubt.models(named);
         let data = Data { noise: &named.noise, rows, monitor };
         let held: Vec<Held> = models.par_iter().map(|model| Held::of(model, data)).collect();
-        let places = doubt.places(named);
-        let lacks = |model: usize| models[model].fitted.beyond_chance();
-        let in_doubt = places.iter().flatten().flat_map(|member| member.may_be_true(lacks));
+        let behind = doubt.behind(&models);
+        let places = doubt.places(named, &behind);
+        let in_doubt = places.iter().flatten().flat_map(|member| member.may_be_true(&behind));
         let mut true_ones: Vec<(usize, f64)> = std::iter::once((0, 1.0)).chain(in_doubt).collect();
         true_ones.sort_by_key(|(model, _)| *model);
         true_ones.dedup_by_key(|(model, _)| *model);
@@ -67,7 +70,7 @@ impl<'b, 'a> Bench<'b, 'a> {
             true_ones.par_iter().flat_map(|(i, share)| truths(*i, *share, &models[*i], &held[*i], data));
         let truths = truths.collect();
         let noise = named.noise.with_another_like(0);
-        Self { base, rows, monitor, noise, doubt, models, places, truths, held }
+        Self { base, rows, monitor, noise, left: doubt.left, models, behind, places, truths, held }
     }
 
     /// A test; `None` where the limits leave no room for it, or a model cannot follow it.
@@ -150,9 +153,9 @@ impl<'b, 'a> Bench<'b, 'a> {
     /// What is told, given criteria; what has none is ruled out by what has.
     fn told(&self, test: &Imagined, found: &Criteria) -> Told {
         // An error of the law goes on in the test.
-        let left = self.longer(test) * self.doubt.left;
+        let left = self.longer(test) * self.left;
         let weights: Vec<(usize, f64)> = self.truths.iter().map(|t| (t.model, t.weight)).collect();
-        told(&self.places, &self.doubt.behind(), &weights, |t, other| {
+        told(&self.places, &self.behind, &weights, |t, other| {
             let Some(criterion) = found.get(&(t, other)) else { return Evidence::ALL };
             let own = self.truths[t].model;
             let difference = criterion - found[&(t, own)];

@@ -1,6 +1,6 @@
 //! What is in doubt: effects that may stand in the place of one that was named, and the models of each.
 
-use crate::diagnose::candidates::Candidate;
+use crate::diagnose::candidates::{Candidate, beyond_chance};
 use crate::diagnose::search::Named;
 
 /// A law with a smaller share of the likelihood is not imagined.
@@ -15,8 +15,6 @@ pub(in super::super) struct Rival<'a> {
     /// Place of the effect named, instead of which it stands.
     pub(in super::super) place: usize,
     pub(in super::super) model: Candidate<'a>,
-    /// By how much its criterion is behind that of the one named.
-    pub(in super::super) behind: f64,
 }
 
 /// What is in doubt.
@@ -39,21 +37,26 @@ impl<'a> Doubt<'a> {
         std::iter::once(named.itself()).chain(others).collect()
     }
 
-    /// By how much each of these is behind, as far as that speaks against it.
-    pub(super) fn behind(&self) -> Vec<f64> {
-        let others = self.laws.iter().chain(&self.rivals).map(|rival| counted(rival.behind, self.left));
+    /// By how much each of these is less likely than the one named, as far as that speaks against it.
+    pub(super) fn behind(&self, models: &[Candidate<'a>]) -> Vec<f64> {
+        let lacks =
+            |model: usize, place: usize| beyond_chance(&models[model].assembly, &models[model].fitted, place);
+        let others = self.laws.iter().chain(&self.rivals).zip(1..).map(|(rival, model)| {
+            let last = models[model].assembly.effects().len() - 1;
+            counted(lacks(model, last) - lacks(0, rival.place), self.left)
+        });
         std::iter::once(0.0).chain(others).collect()
     }
 
     /// What may stand in each place in doubt, the effect named first.
-    pub(super) fn places(&self, named: &Named) -> Vec<Vec<Member>> {
+    pub(super) fn places(&self, named: &Named, behind: &[f64]) -> Vec<Vec<Member>> {
         let mut places: Vec<usize> = self.rivals.iter().map(|rival| rival.place).collect();
         places.dedup();
         let effects = named.assembly.effects();
-        places.into_iter().map(|place| self.members(effects[place].about().effect, place)).collect()
+        places.into_iter().map(|place| self.members(effects[place].about().effect, place, behind)).collect()
     }
 
-    fn members(&self, effect: &'static str, place: usize) -> Vec<Member> {
+    fn members(&self, effect: &'static str, place: usize, behind: &[f64]) -> Vec<Member> {
         let first = 1 + self.laws.len();
         let laws = self.laws.iter().enumerate().filter(|(_, law)| law.place == place).map(|(i, _)| 1 + i);
         let mut found =
@@ -70,7 +73,6 @@ impl<'a> Doubt<'a> {
                 }
             }
         }
-        let behind = self.behind();
         for member in &mut found[1..] {
             let likeliest = member.models.iter().min_by(|a, b| behind[**a].total_cmp(&behind[**b]));
             member.likeliest = *likeliest.unwrap_or(&member.likeliest);
@@ -89,24 +91,19 @@ pub(super) struct Member {
 }
 
 impl Member {
-    /// Its likeliest model, and those of its other laws that may best be true, each with its share of the likelihood: what
-    /// a parameter more costs where a law is to be named says little of which is true, but that it fits better by chance
-    /// (Akaike, IEEE Trans. Autom. Control 19 (1974) 716). `lacks` is that criterion.
-    pub(super) fn may_be_true(&self, lacks: impl Fn(usize) -> f64) -> Vec<(usize, f64)> {
-        let share = |model: usize| (0.5 * (lacks(self.likeliest) - lacks(model))).exp().min(1.0);
+    /// Its likeliest model, and those of its other laws that may best be true, each with its share of the likelihood.
+    pub(super) fn may_be_true(&self, behind: &[f64]) -> Vec<(usize, f64)> {
+        let share = |model: usize| (0.5 * (behind[self.likeliest] - behind[model])).exp().min(1.0);
         let others = self.models.iter().copied().filter(|model| *model != self.likeliest);
-        let mut others: Vec<(usize, f64)> = others
-            .filter(|model| lacks(*model).is_finite())
-            .map(|model| (model, share(model)))
-            .filter(|(_, share)| *share > UNLIKELY)
-            .collect();
-        others.sort_by(|(a, _), (b, _)| lacks(*a).total_cmp(&lacks(*b)));
+        let mut others: Vec<(usize, f64)> =
+            others.map(|model| (model, share(model))).filter(|(_, share)| *share > UNLIKELY).collect();
+        others.sort_by(|(a, _), (b, _)| behind[*a].total_cmp(&behind[*b]));
         others.truncate(OTHER_LAWS);
         std::iter::once((self.likeliest, 1.0)).chain(others).collect()
     }
 }
 
-/// What a difference in the criterion counts, where no law is exact by so much.
+/// What a difference counts, where no law is exact by so much.
 fn counted(behind: f64, left: f64) -> f64 {
     (behind - left).max(behind.min(0.0))
 }
@@ -125,10 +122,10 @@ mod tests {
     #[test]
     fn another_law_may_be_true_as_far_as_it_fits() {
         let member = Member { effect: "thermal_softening", likeliest: 0, models: vec![0, 1, 2] };
-        let with = |lacks: [f64; 3]| member.may_be_true(|model| lacks[model]);
+        let with = |behind: [f64; 3]| member.may_be_true(&behind);
         assert_eq!(with([10.0, 12.0, 9.0]), [(0, 1.0), (2, 1.0), (1, (-1.0_f64).exp())]);
-        assert_eq!(with([10.0, 40.0, f64::INFINITY]), [(0, 1.0)]);
+        assert_eq!(with([10.0, 40.0, 40.0]), [(0, 1.0)]);
         let many = Member { effect: "thermal_softening", likeliest: 0, models: (0..9).collect() };
-        assert_eq!(many.may_be_true(|_| 1.0).len(), 1 + OTHER_LAWS);
+        assert_eq!(many.may_be_true(&[1.0; 9]).len(), 1 + OTHER_LAWS);
     }
 }

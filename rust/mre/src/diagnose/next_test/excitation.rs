@@ -48,6 +48,9 @@ const CURRENTS: [f64; 6] = [0.0, 0.5, 1.0, 0.5, 0.0, 1.0];
 const RAMP: f64 = 1.0;
 /// Cycles of the slowest sine.
 const SLOW_CYCLES: f64 = 4.0;
+/// A sine's cycle has so much of a sample more than a whole number of them: samples at the same phases in every cycle, a turn
+/// among them, would show less of it.
+const APART: f64 = 0.381_966;
 /// Ratio of neighbouring frequencies of a multisine.
 const SPACING: f64 = 1.25;
 
@@ -84,9 +87,11 @@ impl Kind {
     /// The signal; `None` where the limits leave no room for it.
     pub fn signal(self, limits: &Limits) -> Option<Signal> {
         let Limits { stroke, speed, highest, duration, rate, current } = *limits;
-        let slow = (SLOW_CYCLES / duration).min(highest);
+        let apart = |f: f64| rate / ((rate / f).ceil() + APART);
+        let highest = apart(highest);
+        let slow = apart(SLOW_CYCLES / duration).min(highest);
         // The frequency at which full stroke needs half the speed.
-        let middle = (0.5 * speed / (TAU * stroke)).clamp(slow, highest);
+        let middle = apart(0.5 * speed / (TAU * stroke)).clamp(slow, highest);
         let largest = |f: f64| stroke.min(speed / (TAU * f));
         let count = (duration * rate).round() as usize;
         let time: Vec<f64> = (0..count).map(|i| i as f64 / rate).collect();
@@ -221,6 +226,18 @@ mod tests {
             assert_eq!(resting, kind == Kind::Rest, "{kind:?}");
         }
         assert!(Kind::CurrentSteps.signal(&Limits { current: None, ..limits }).is_none());
+    }
+
+    #[test]
+    fn no_sample_is_at_the_turn_of_a_sine() {
+        for rate in [80.0, 100.0, 200.0, 320.0] {
+            for kind in [Kind::SlowSine, Kind::FastSine] {
+                let Signal { displacement: x, amplitude, .. } = kind.signal(&limits(rate)).expect("room");
+                let steady = &x[x.len() / 4..3 * x.len() / 4];
+                let at_a_turn = |w: &&[f64]| (w[2] - w[0]).abs() < 1e-9 * amplitude && w[1] != 0.0;
+                assert_eq!(steady.windows(3).filter(at_a_turn).count(), 0, "{kind:?} {rate}");
+            }
+        }
     }
 
     #[test]
