@@ -1,6 +1,8 @@
 //! What is in doubt: effects that may stand in the place of one that was named, and the models of each.
 
-use crate::diagnose::candidates::{Candidate, beyond_chance};
+use crate::assembly::Assembly;
+use crate::diagnose::candidates::{Candidate, beyond_chance, smallest};
+use crate::diagnose::least_squares::Fitted;
 use crate::diagnose::search::Named;
 
 /// A law with a smaller share of the likelihood is not imagined.
@@ -37,13 +39,16 @@ impl<'a> Doubt<'a> {
         std::iter::once(named.itself()).chain(others).collect()
     }
 
-    /// By how much each of these is less likely than the one named, as far as that speaks against it.
+    /// By how much each of these is less likely than the one named, as far as that speaks against it: what a parameter more
+    /// costs where one law is to be named makes it no likelier than the other, nor one that fits better.
     pub(super) fn behind(&self, models: &[Candidate<'a>]) -> Vec<f64> {
-        let lacks =
-            |model: usize, place: usize| beyond_chance(&models[model].assembly, &models[model].fitted, place);
-        let others = self.laws.iter().chain(&self.rivals).zip(1..).map(|(rival, model)| {
-            let last = models[model].assembly.effects().len() - 1;
-            counted(lacks(model, last) - lacks(0, rival.place), self.left)
+        let others = self.laws.iter().chain(&self.rivals).zip(&models[1..]).map(|(rival, model)| {
+            let last = model.assembly.effects().len() - 1;
+            let by = |criterion: fn(&Assembly, &Fitted, usize) -> f64| {
+                let of = |model: &Candidate, place| criterion(&model.assembly, &model.fitted, place);
+                of(model, last) - of(&models[0], rival.place)
+            };
+            counted(likelier(by(beyond_chance), by(smallest)), self.left)
         });
         std::iter::once(0.0).chain(others).collect()
     }
@@ -103,9 +108,14 @@ impl Member {
     }
 }
 
+/// A difference in Akaike's criterion, as far as that of the Bayesian one does not take back that it is for a model.
+fn likelier(akaike: f64, bayesian: f64) -> f64 {
+    akaike.max(bayesian.min(0.0))
+}
+
 /// What a difference counts, where no law is exact by so much.
 fn counted(behind: f64, left: f64) -> f64 {
-    (behind - left).max(behind.min(0.0))
+    (behind.abs() - left).max(0.0).copysign(behind)
 }
 
 #[cfg(test)]
@@ -114,9 +124,16 @@ mod tests {
 
     #[test]
     fn differences_that_an_inexact_law_leaves_speak_against_none() {
-        let counted = |left| [-3.0, 5.0, 40.0].map(|behind| counted(behind, left));
-        assert_eq!(counted(0.0), [-3.0, 5.0, 40.0]);
-        assert_eq!(counted(30.0), [-3.0, 0.0, 10.0]);
+        let counted = |left| [-40.0, -3.0, 5.0, 40.0].map(|behind| counted(behind, left));
+        assert_eq!(counted(0.0), [-40.0, -3.0, 5.0, 40.0]);
+        assert_eq!(counted(30.0), [-10.0, 0.0, 0.0, 10.0]);
+    }
+
+    #[test]
+    fn one_that_its_parameters_alone_put_behind_is_as_likely() {
+        // With a parameter more at a price of nine: it fits as well, better by less than that, and by more.
+        let likelier = |better: f64| likelier(2.0 - better, 9.0 - better);
+        assert_eq!([0.0, 5.0, 8.0, 12.0].map(likelier), [2.0, 0.0, 0.0, -3.0]);
     }
 
     #[test]
