@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from mre_core import Recording, diagnose
+from scipy.signal import lfilter
 
 RATE, NOISE, FRICTION = 200.0, 0.7, 30.0
 
@@ -38,6 +39,17 @@ def test_friction_is_exact_whatever_its_sign_at_turns(signs: str, velocity: str)
     assert set(found.left_out) == {f"sine {k}" for k in range(4)}
 
 
-def test_nothing_is_missing_where_no_force_jumps() -> None:
-    found = diagnose(sines(0.0, "rounded", "derived"), base="kelvin_voigt", seed=1)
-    assert found.verdict == "adequate", found
+@pytest.mark.parametrize("cycle", [20, 40, 100])
+@pytest.mark.parametrize("memory", [0.0, 0.9])
+def test_nothing_is_missing_where_no_force_jumps(memory: float, cycle: int) -> None:
+    rng = np.random.default_rng(cycle)
+    t = np.arange(4000) / RATE
+    found = []
+    for k, amplitude in enumerate([2.0, 5.0]):
+        w = 2 * np.pi * RATE / cycle / (1 + k)
+        x = amplitude * np.sin(w * t)
+        noise = lfilter([1], [1, -memory], NOISE * rng.normal(size=t.size))
+        force = 20 * x + amplitude * w * np.cos(w * t) + noise
+        found.append(Recording(t, x, force, name=f"sine {k}"))
+    diagnosis = diagnose(found, base="kelvin_voigt", seed=1)
+    assert diagnosis.verdict == "adequate", diagnosis

@@ -132,7 +132,7 @@ pub(crate) fn excitation<'py>(
     numpy_is_there(py)?;
     let known = KINDS.iter().find(|k| k.id() == kind);
     let limits = Limits { stroke, speed, highest, duration, rate, current };
-    let signal = known.and_then(|k| k.signal(&limits)).ok_or_else(|| {
+    let signal = known.and_then(|k| k.signal(&limits, 1)).ok_or_else(|| {
         let ids: Vec<&str> = KINDS.iter().map(|k| k.id()).collect();
         to_python(Error::setting("excitation", format!("'{kind}'"), format!("one of {}", ids.join(", "))))
     })?;

@@ -79,8 +79,8 @@ impl Campaign {
         Self { doubts, ..self }
     }
 
-    /// Samples near a corner, a bend or an end of a motion whose velocity is derived, by recording: it is wrong or
-    /// noisy there, and no fit counts them.
+    /// Samples near a corner, a bend or an end of a motion whose velocity is derived, where it is wrong or noisy, and at
+    /// turns of any, where its sign is not known, by recording: no fit counts them.
     pub fn left_out(&self) -> impl Iterator<Item = &[Range<usize>]> {
         self.doubts.iter().map(|doubts| doubts.left_out.as_slice())
     }

@@ -60,8 +60,17 @@ impl Candidate<'_> {
 
     /// The criterion without what the last law pays for parameters that stand at an ideal of their own.
     pub(super) fn as_the_smallest(&self) -> f64 {
-        let last = self.assembly.effects().len().checked_sub(1);
-        last.map_or(self.criterion(), |last| smallest(&self.assembly, &self.fitted, last))
+        self.last().map_or(self.criterion(), |last| smallest(&self.assembly, &self.fitted, last))
+    }
+
+    /// Akaike's criterion, likewise.
+    pub(super) fn akaike_as_the_smallest(&self) -> f64 {
+        let of = |last| akaike_of_the_smallest(&self.assembly, &self.fitted, last);
+        self.last().map_or(self.fitted.beyond_chance(), of)
+    }
+
+    fn last(&self) -> Option<usize> {
+        self.assembly.effects().len().checked_sub(1)
     }
 
     /// Place of the last law in the catalogue.
@@ -85,7 +94,7 @@ pub(super) fn smallest(assembly: &Assembly, fitted: &Fitted, place: usize) -> f6
 
 /// The same by Akaike's criterion: what a parameter costs where one law is to be named says little of which is true (IEEE
 /// Trans. Autom. Control 19 (1974) 716).
-pub(super) fn beyond_chance(assembly: &Assembly, fitted: &Fitted, place: usize) -> f64 {
+pub(super) fn akaike_of_the_smallest(assembly: &Assembly, fitted: &Fitted, place: usize) -> f64 {
     fitted.beyond_chance() - AKAIKE * idle(assembly, fitted, place) as f64
 }
 

@@ -26,20 +26,24 @@ impl<'a> LeftOut<'a> {
 
     /// Rows that count less the samples that tell nothing.
     pub(super) fn spare(&self, rows: &Rows) -> Rows {
-        let mut kept = rows.clone();
-        for gap in self.ranges {
-            kept = kept
-                .into_iter()
-                .flat_map(|r| [r.start..r.end.min(gap.start), r.start.max(gap.end)..r.end])
+        let ends = std::iter::once(0).chain(self.ranges.iter().map(|gap| gap.end));
+        let starts = self.ranges.iter().map(|gap| gap.start).chain([self.length]);
+        let kept: Rows = ends.zip(starts).map(|(start, end)| start..end).collect();
+        let within = |row: &Range<usize>| {
+            let (start, end) = (row.start, row.end);
+            let first = kept.partition_point(|part| part.end <= start);
+            let own = kept[first..].iter().take_while(move |part| part.start < end);
+            own.map(|part| part.start.max(start)..part.end.min(end))
                 .filter(|r| r.start < r.end)
-                .collect();
-        }
-        kept
+                .collect::<Rows>()
+        };
+        rows.iter().flat_map(within).collect()
     }
 
     /// A series of the scored samples with what is around the gaps in them, mirrored from both sides.
     pub(super) fn bridge(&self, series: &mut [f64]) {
         let gaps = self.of_the_scored();
+        let alike = self.alike(series);
         for (k, gap) in gaps.iter().enumerate() {
             let before = k.checked_sub(1).map_or(0, |k| gaps[k].end)..gap.start;
             let after = gap.end..gaps.get(k + 1).map_or(series.len(), |next| next.start);
@@ -49,6 +53,7 @@ impl<'a> LeftOut<'a> {
                 let right = (!after.is_empty()).then(|| series[after.start + from % after.len()]);
                 let share = (to as f64 + 0.5) / gap.len() as f64;
                 series[i] = match (left, right) {
+                    (Some(left), Some(right)) if gap.len() == 1 => alike * (left + right) / 2.0,
                     (Some(left), Some(right)) => left + share * (right - left),
                     (Some(one), None) | (None, Some(one)) => one,
                     (None, None) => series[i],
@@ -57,13 +62,26 @@ impl<'a> LeftOut<'a> {
         }
     }
 
-    /// Which of some samples tell something, where what is left out is felt for so many more.
+    /// Which of some samples tell something, where what is left out is felt for so many more; a single one is made up for
+    /// by what is around it.
     pub(super) fn telling(&self, samples: Range<usize>, memory: usize) -> Vec<bool> {
         let mut telling = vec![true; samples.len()];
         for gap in self.places_in(&samples, memory) {
             telling[gap].fill(false);
         }
         telling
+    }
+
+    /// How much of the mean of its neighbours is to be expected of a scored sample that is left out alone, by the correlation of
+    /// neighbours elsewhere: nothing in white noise.
+    fn alike(&self, series: &[f64]) -> f64 {
+        let telling = self.telling(self.scored.clone(), 0);
+        let pairs = series.windows(2).zip(telling.windows(2)).filter(|(_, both)| both[0] && both[1]);
+        let (product, square) = pairs.fold((0.0, f64::MIN_POSITIVE), |(product, square), (pair, _)| {
+            (product + pair[0] * pair[1], square + pair[0] * pair[0])
+        });
+        let next = (product / square).clamp(-1.0, 1.0);
+        2.0 * next / (1.0 + next * next)
     }
 
     fn of_the_scored(&self) -> Rows {
@@ -73,7 +91,8 @@ impl<'a> LeftOut<'a> {
     /// What is left out, and so many samples after it, as places in some samples.
     fn places_in(&self, samples: &Range<usize>, memory: usize) -> impl Iterator<Item = Range<usize>> {
         let place = |i: usize| i.clamp(samples.start, samples.end) - samples.start;
-        self.ranges.iter().map(move |gap| place(gap.start)..place(gap.end + memory))
+        let felt = move |gap: &Range<usize>| if gap.len() == 1 { memory.min(1) } else { memory };
+        self.ranges.iter().map(move |gap| place(gap.start)..place(gap.end + felt(gap)))
     }
 
     /// Gaps in the whole recording, for an autoregression.
@@ -198,6 +217,34 @@ mod tests {
         let mut found = prediction_error(y, &COEFFICIENTS, SCALE);
         gaps.leave_out(&mut found);
         found
+    }
+
+    fn place(ranges: &[Range<usize>], length: usize) -> LeftOut<'_> {
+        LeftOut { ranges, scored: 0..length, length }
+    }
+
+    #[test]
+    fn rows_are_kept_between_gaps() {
+        let spare = |rows: Rows| place(&[0..2, 5..6, 8..10], 10).spare(&rows);
+        assert_eq!(spare(vec![0..7, 7..10]), [2..5, 6..7, 7..8]);
+        assert_eq!(spare(vec![1..4, 5..6, 7..10]), [2..4, 7..8]);
+        assert_eq!(place(&[], 10).spare(&vec![0..4, 6..10]), [0..4, 6..10]);
+    }
+
+    #[test]
+    fn single_samples_are_bridged_by_as_much_as_neighbours_are_alike() {
+        let single: Vec<Range<usize>> = (5..2000).step_by(10).map(|i| i..i + 1).collect();
+        let gaps = place(&single, 2000);
+        // Noise without memory keeps none, and what is smooth goes on.
+        let mut noise: Vec<f64> =
+            (0..2000_u32).map(|i| f64::from(i * i % 4099 * 37 % 1013) / 506.0 - 1.0).collect();
+        gaps.bridge(&mut noise);
+        let next = dot(&noise[1..], &noise[..1999]) / dot(&noise, &noise);
+        assert!(next.abs() < 0.05, "{next}");
+        let slow = |i: usize| (0.02 * i as f64).sin();
+        let mut smooth: Vec<f64> = (0..2000).map(|i| if i % 10 == 5 { 9.0 } else { slow(i) }).collect();
+        gaps.bridge(&mut smooth);
+        assert!(smooth.iter().enumerate().all(|(i, y)| (y - slow(i)).abs() < 0.3), "{smooth:?}");
     }
 
     #[test]

@@ -4,6 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use super::diagnosis::Diagnosis;
+use super::gaps::LeftOut;
 use super::monitor::{Monitor, Stage};
 use super::verdict::Verdict;
 use crate::assembly::{Assembly, Base, Campaign};
@@ -64,13 +65,12 @@ fn fitted_force(campaign: &Campaign, base: &Base, cancel: &AtomicBool) -> Vec<Ve
 
 /// Recording and place of each sample that counts.
 fn counted(campaign: &Campaign) -> Vec<(usize, usize)> {
-    let places = campaign.recordings().iter().zip(campaign.left_out()).enumerate();
-    places
-        .flat_map(|(r, (recording, left_out))| {
-            let counts = |i: &usize| !left_out.iter().any(|part| part.contains(i));
-            recording.scored().filter(counts).map(move |i| (r, i)).collect::<Vec<_>>()
-        })
-        .collect()
+    let of = |r: usize| {
+        let scored = campaign.recordings()[r].scored();
+        let telling = LeftOut::of(campaign, r).telling(scored.clone(), 0);
+        scored.zip(telling).filter_map(move |(i, telling)| telling.then_some((r, i)))
+    };
+    (0..campaign.recordings().len()).flat_map(of).collect()
 }
 
 fn rms(campaign: &Campaign, forces: &[Vec<f64>]) -> f64 {

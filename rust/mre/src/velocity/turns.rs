@@ -7,27 +7,35 @@ use std::ops::Range;
 /// much of a velocity that is nothing.
 const NOTHING: f64 = 0.02;
 
-/// These samples, each a range of its own.
+/// Where more than one of so many samples is at a turn, what is left between them would tell too little.
+const FEW: usize = 20;
+
+/// These samples, each a range of its own; none where a cycle has too few.
 pub(crate) fn turns(velocity: &[f64]) -> Vec<Range<usize>> {
     let turns = |v: &[f64]| v[0] * v[2] < 0.0 && v[1].abs() < NOTHING * v[0].abs().min(v[2].abs());
     let between = velocity.windows(3).enumerate();
-    between.filter(|(_, three)| turns(three)).map(|(i, _)| i + 1..i + 2).collect()
+    let found: Vec<Range<usize>> =
+        between.filter(|(_, three)| turns(three)).map(|(i, _)| i + 1..i + 2).collect();
+    if FEW * found.len() > velocity.len() { Vec::new() } else { found }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    /// The velocity of a sine with so many samples to a cycle, the first so much of one after a peak.
+    fn sine(cycle: f64, phase: f64) -> Vec<f64> {
+        (0..200).map(|i| (std::f64::consts::TAU * (f64::from(i) + phase) / cycle).cos()).collect()
+    }
+
     #[test]
     fn where_a_sample_is_at_the_turn_it_is_found() {
-        let at =
-            |phase: f64| (0..100).map(move |i| (0.05 * std::f64::consts::PI * (f64::from(i) + phase)).cos());
-        let found = |phase: f64| turns(&at(phase).collect::<Vec<f64>>());
-        let every_twenty: Vec<Range<usize>> = (0..5).map(|k| 10 + 20 * k..11 + 20 * k).collect();
-        assert_eq!(found(0.0), every_twenty);
-        assert_eq!(found(0.01), every_twenty);
-        assert_eq!(found(0.05), []);
-        assert_eq!(found(-0.5), []);
+        let every_twenty: Vec<Range<usize>> = (0..10).map(|k| 10 + 20 * k..11 + 20 * k).collect();
+        assert_eq!(turns(&sine(40.0, 0.0)), every_twenty);
+        assert_eq!(turns(&sine(40.0, 0.01)), every_twenty);
+        assert_eq!(turns(&sine(40.0, 0.05)), []);
+        assert_eq!(turns(&sine(40.0, -0.5)), []);
+        assert_eq!(turns(&sine(20.0, 0.0)), []);
     }
 
     #[test]
@@ -35,7 +43,8 @@ mod tests {
         assert_eq!(turns(&[0.0; 9]), []);
         assert_eq!(turns(&[3.0, 2.0, 1.0, 0.0, 0.0, -1.0, -2.0]), []);
         // It stops for a moment, and goes on.
-        assert_eq!(turns(&[2.0, 1.0, 0.0, 1.0, 2.0]), []);
+        let stops: Vec<f64> = (-20..20).map(|i| f64::from(i * i)).collect();
+        assert_eq!(turns(&stops), []);
         assert_eq!(turns(&[]), []);
     }
 }

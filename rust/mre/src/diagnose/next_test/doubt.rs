@@ -1,7 +1,8 @@
 //! What is in doubt: effects that may stand in the place of one that was named, and the models of each.
 
 use crate::assembly::Assembly;
-use crate::diagnose::candidates::{Candidate, beyond_chance, smallest};
+use crate::diagnose::alternatives::may_fit_better;
+use crate::diagnose::candidates::{Candidate, akaike_of_the_smallest, smallest};
 use crate::diagnose::least_squares::Fitted;
 use crate::diagnose::search::Named;
 
@@ -41,27 +42,26 @@ impl<'a> Doubt<'a> {
 
     /// By how much each of these is less likely than the one named, as far as that speaks against it: what a parameter more
     /// costs where one law is to be named makes it no likelier than the other, nor one that fits better.
-    pub(super) fn behind(&self, models: &[Candidate<'a>]) -> Vec<f64> {
-        let others = self.laws.iter().chain(&self.rivals).zip(&models[1..]).map(|(rival, model)| {
-            let last = model.assembly.effects().len() - 1;
-            let by = |criterion: fn(&Assembly, &Fitted, usize) -> f64| {
-                let of = |model: &Candidate, place| criterion(&model.assembly, &model.fitted, place);
-                of(model, last) - of(&models[0], rival.place)
-            };
-            counted(likelier(by(beyond_chance), by(smallest)), self.left)
+    pub(super) fn behind(&self, named: &Named<'a>) -> Vec<f64> {
+        let others = self.laws.iter().chain(&self.rivals).map(|Rival { model, place, .. }| {
+            let known = |of: fn(&Assembly, &Fitted, usize) -> f64| of(&named.assembly, &named.fitted, *place);
+            let bayesian = model.as_the_smallest() - known(smallest);
+            let akaike = model.akaike_as_the_smallest() - known(akaike_of_the_smallest);
+            let fair = may_fit_better(model, &named.noise);
+            counted(if fair { likelier(akaike, bayesian) } else { bayesian }, self.left)
         });
         std::iter::once(0.0).chain(others).collect()
     }
 
     /// What may stand in each place in doubt, the effect named first.
-    pub(super) fn places(&self, named: &Named, behind: &[f64]) -> Vec<Vec<Member>> {
+    pub(super) fn places(&self, named: &Named, lacks: &[f64]) -> Vec<Vec<Member>> {
         let mut places: Vec<usize> = self.rivals.iter().map(|rival| rival.place).collect();
         places.dedup();
         let effects = named.assembly.effects();
-        places.into_iter().map(|place| self.members(effects[place].about().effect, place, behind)).collect()
+        places.into_iter().map(|place| self.members(effects[place].about().effect, place, lacks)).collect()
     }
 
-    fn members(&self, effect: &'static str, place: usize, behind: &[f64]) -> Vec<Member> {
+    fn members(&self, effect: &'static str, place: usize, lacks: &[f64]) -> Vec<Member> {
         let first = 1 + self.laws.len();
         let laws = self.laws.iter().enumerate().filter(|(_, law)| law.place == place).map(|(i, _)| 1 + i);
         let mut found =
@@ -79,7 +79,7 @@ impl<'a> Doubt<'a> {
             }
         }
         for member in &mut found[1..] {
-            let likeliest = member.models.iter().min_by(|a, b| behind[**a].total_cmp(&behind[**b]));
+            let likeliest = member.models.iter().min_by(|a, b| lacks[**a].total_cmp(&lacks[**b]));
             member.likeliest = *likeliest.unwrap_or(&member.likeliest);
         }
         found
@@ -96,13 +96,15 @@ pub(super) struct Member {
 }
 
 impl Member {
-    /// Its likeliest model, and those of its other laws that may best be true, each with its share of the likelihood.
-    pub(super) fn may_be_true(&self, behind: &[f64]) -> Vec<(usize, f64)> {
-        let share = |model: usize| (0.5 * (behind[self.likeliest] - behind[model])).exp().min(1.0);
+    /// Its likeliest model, and those of its other laws that may best be true, each with its share of the likelihood: what
+    /// a parameter more costs where a law is to be named says little of which is true, but that it fits better by chance.
+    /// `lacks` is Akaike's criterion.
+    pub(super) fn may_be_true(&self, lacks: &[f64]) -> Vec<(usize, f64)> {
+        let share = |model: usize| (0.5 * (lacks[self.likeliest] - lacks[model])).exp().min(1.0);
         let others = self.models.iter().copied().filter(|model| *model != self.likeliest);
         let mut others: Vec<(usize, f64)> =
             others.map(|model| (model, share(model))).filter(|(_, share)| *share > UNLIKELY).collect();
-        others.sort_by(|(a, _), (b, _)| behind[*a].total_cmp(&behind[*b]));
+        others.sort_by(|(a, _), (b, _)| lacks[*a].total_cmp(&lacks[*b]));
         others.truncate(OTHER_LAWS);
         std::iter::once((self.likeliest, 1.0)).chain(others).collect()
     }
@@ -115,7 +117,7 @@ fn likelier(akaike: f64, bayesian: f64) -> f64 {
 
 /// What a difference counts, where no law is exact by so much.
 fn counted(behind: f64, left: f64) -> f64 {
-    (behind.abs() - left).max(0.0).copysign(behind)
+    behind - behind.clamp(-left, left)
 }
 
 #[cfg(test)]
@@ -139,9 +141,9 @@ mod tests {
     #[test]
     fn another_law_may_be_true_as_far_as_it_fits() {
         let member = Member { effect: "thermal_softening", likeliest: 0, models: vec![0, 1, 2] };
-        let with = |behind: [f64; 3]| member.may_be_true(&behind);
+        let with = |lacks: [f64; 3]| member.may_be_true(&lacks);
         assert_eq!(with([10.0, 12.0, 9.0]), [(0, 1.0), (2, 1.0), (1, (-1.0_f64).exp())]);
-        assert_eq!(with([10.0, 40.0, 40.0]), [(0, 1.0)]);
+        assert_eq!(with([10.0, 40.0, f64::INFINITY]), [(0, 1.0)]);
         let many = Member { effect: "thermal_softening", likeliest: 0, models: (0..9).collect() };
         assert_eq!(many.may_be_true(&[1.0; 9]).len(), 1 + OTHER_LAWS);
     }

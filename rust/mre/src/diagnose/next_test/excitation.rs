@@ -48,9 +48,9 @@ const CURRENTS: [f64; 6] = [0.0, 0.5, 1.0, 0.5, 0.0, 1.0];
 const RAMP: f64 = 1.0;
 /// Cycles of the slowest sine.
 const SLOW_CYCLES: f64 = 4.0;
-/// A sine's cycle has so much of a sample more than a whole number of them: samples at the same phases in every cycle, a turn
-/// among them, would show less of it.
-const APART: f64 = 0.381_966;
+/// A sine's cycle has so much of a sample more than a whole number of them, a golden section: samples at the same phases in
+/// every cycle, a turn among them, would show less of it.
+const GOLDEN: f64 = 0.381_966;
 /// Ratio of neighbouring frequencies of a multisine.
 const SPACING: f64 = 1.25;
 
@@ -84,21 +84,22 @@ impl Kind {
         }
     }
 
-    /// The signal; `None` where the limits leave no room for it.
-    pub fn signal(self, limits: &Limits) -> Option<Signal> {
-        let Limits { stroke, speed, highest, duration, rate, current } = *limits;
-        let apart = |f: f64| rate / ((rate / f).ceil() + APART);
-        let highest = apart(highest);
-        let slow = apart(SLOW_CYCLES / duration).min(highest);
+    /// The signal, at so many times the rate of the limits; `None` where these leave no room for it.
+    pub fn signal(self, limits: &Limits, times: usize) -> Option<Signal> {
+        let Limits { stroke, speed, highest, duration, current, .. } = *limits;
+        let rate = times as f64 * limits.rate;
+        let apart = |f: f64| limits.rate / ((limits.rate / f - GOLDEN).ceil() + GOLDEN);
+        let fast = apart(highest);
+        let slow = apart(SLOW_CYCLES / duration).min(fast);
         // The frequency at which full stroke needs half the speed.
-        let middle = apart(0.5 * speed / (TAU * stroke)).clamp(slow, highest);
+        let middle = apart(0.5 * speed / (TAU * stroke)).clamp(slow, fast);
         let largest = |f: f64| stroke.min(speed / (TAU * f));
         let count = (duration * rate).round() as usize;
         let time: Vec<f64> = (0..count).map(|i| i as f64 / rate).collect();
         let sine = |f: f64| time.iter().map(|t| largest(f) * (TAU * f * t).sin()).collect::<Vec<f64>>();
         let (motion, frequency): (Vec<f64>, f64) = match self {
             Self::SlowSine => (sine(slow), slow),
-            Self::FastSine => (sine(highest), highest),
+            Self::FastSine => (sine(fast), fast),
             Self::Amplitudes => (amplitudes(&time, duration, middle, stroke), middle),
             Self::Rest => (rest(&sine(middle), &time, duration), middle),
             Self::Sweep => (sweep(&time, duration, (slow, highest), (stroke, speed)), highest),
@@ -126,7 +127,7 @@ impl Kind {
                 x * smooth(t / RAMP) * end
             })
             .collect();
-        let displacement = within(ramped, limits);
+        let displacement = within(ramped, limits, rate);
         let amplitude = displacement.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         Some(Signal { time, displacement, current, frequency, amplitude })
     }
@@ -140,9 +141,9 @@ fn smooth(share: f64) -> f64 {
 }
 
 /// Scaled into stroke and speed.
-fn within(motion: Vec<f64>, limits: &Limits) -> Vec<f64> {
+fn within(motion: Vec<f64>, limits: &Limits, rate: f64) -> Vec<f64> {
     let far = motion.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-    let fast = motion.windows(2).fold(0.0_f64, |m, p| m.max((p[1] - p[0]).abs())) * limits.rate;
+    let fast = motion.windows(2).fold(0.0_f64, |m, p| m.max((p[1] - p[0]).abs())) * rate;
     let share = (far / limits.stroke).max(fast / limits.speed).max(1.0);
     motion.into_iter().map(|x| x / share).collect()
 }
@@ -214,7 +215,7 @@ mod tests {
     fn every_signal_keeps_its_limits_and_starts_at_rest() {
         let limits = limits(200.0);
         for kind in KINDS {
-            let signal = kind.signal(&limits).expect("room");
+            let signal = kind.signal(&limits, 1).expect("room");
             assert_eq!(signal.time.len(), 4000);
             assert_eq!(signal.displacement[0], 0.0, "{kind:?}");
             let far = signal.displacement.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
@@ -225,18 +226,31 @@ mod tests {
             let resting = signal.displacement[1500..2500].iter().all(|x| *x == 0.0);
             assert_eq!(resting, kind == Kind::Rest, "{kind:?}");
         }
-        assert!(Kind::CurrentSteps.signal(&Limits { current: None, ..limits }).is_none());
+        assert!(Kind::CurrentSteps.signal(&Limits { current: None, ..limits }, 1).is_none());
     }
 
     #[test]
-    fn no_sample_is_at_the_turn_of_a_sine() {
-        for rate in [80.0, 100.0, 200.0, 320.0] {
-            for kind in [Kind::SlowSine, Kind::FastSine] {
-                let Signal { displacement: x, amplitude, .. } = kind.signal(&limits(rate)).expect("room");
-                let steady = &x[x.len() / 4..3 * x.len() / 4];
-                let at_a_turn = |w: &&[f64]| (w[2] - w[0]).abs() < 1e-9 * amplitude && w[1] != 0.0;
-                assert_eq!(steady.windows(3).filter(at_a_turn).count(), 0, "{kind:?} {rate}");
-            }
+    fn few_samples_are_at_the_turn_of_a_sine() {
+        // Twenty and forty to a cycle.
+        for rate in [160.0, 320.0] {
+            let Signal { displacement, time, .. } = Kind::FastSine.signal(&limits(rate), 1).expect("room");
+            let velocity: Vec<f64> = displacement.windows(3).map(|w| w[2] - w[0]).collect();
+            let turns = velocity.windows(2).filter(|w| w[0] * w[1] < 0.0).count();
+            assert!(turns > time.len() / 25, "{turns}");
+            // By chance one of 25.
+            assert!(15 * crate::velocity::turns(&velocity).len() < turns, "{rate}: {turns}");
+        }
+    }
+
+    #[test]
+    fn a_finer_signal_is_the_same_motion() {
+        for kind in KINDS {
+            let [coarse, fine] = [1, 5].map(|times| kind.signal(&limits(200.0), times).expect("room"));
+            assert_eq!(coarse.frequency, fine.frequency);
+            let apart = coarse.displacement.iter().zip(fine.displacement.iter().step_by(5));
+            let apart = apart.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            // Scaled by its steepest step, which a finer one has steeper.
+            assert!(apart < 0.02 * coarse.amplitude, "{kind:?}: {apart}");
         }
     }
 
@@ -248,7 +262,7 @@ mod tests {
         };
         for kind in KINDS {
             let [coarse, fine] =
-                [2000.0, 4000.0].map(|rate| turn(&kind.signal(&limits(rate)).expect("room")));
+                [2000.0, 4000.0].map(|rate| turn(&kind.signal(&limits(rate), 1).expect("room")));
             // An eighth; of a jump of the acceleration a quarter.
             assert!((7.0..9.0).contains(&(coarse / fine)), "{kind:?}: {coarse} {fine}");
         }

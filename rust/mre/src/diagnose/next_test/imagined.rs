@@ -30,10 +30,10 @@ impl Imagined {
         base: &Base,
         truths: &[Truth],
     ) -> Option<Self> {
-        let times = (FINE * limits.highest / limits.rate).clamp(1.0, FINEST).ceil();
-        let fine = kind.signal(&Limits { rate: times * limits.rate, ..limits.clone() })?;
+        let times = (FINE * limits.highest / limits.rate).clamp(1.0, FINEST).ceil() as usize;
+        let fine = kind.signal(limits, times)?;
         let world = World::new(known, base, &fine, None, None)?;
-        let every = |series: &[f64]| series.iter().step_by(times as usize).copied().collect::<Vec<f64>>();
+        let every = |series: &[f64]| series.iter().step_by(times).copied().collect::<Vec<f64>>();
         let truths: Vec<&Candidate> = truths.iter().map(|truth| &truth.candidate).collect();
         let forces = world.simulated(&truths)?.iter().map(|force| every(force)).collect();
         // A velocity that was recorded will be again.

@@ -148,7 +148,7 @@ fn proposed(
             .unwrap_or(std::cmp::Ordering::Equal)
     });
     let prospect = |t: &Telling| {
-        let signal = t.kind.signal(limits)?;
+        let signal = t.kind.signal(limits, 1)?;
         let prospect = Prospect::new(t.kind, &signal, limits, t.told.chances.clone());
         Some(Prospect { certainty: Some(t.told.certainty), leaves: t.told.leaves.clone(), ..prospect })
     };
