@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from mre_core import Recording, diagnose
-from scipy.signal import lfilter
+from scipy.signal import lfilter  # type: ignore[import-untyped]
 
 RATE, NOISE, FRICTION = 200.0, 0.7, 30.0
 
