@@ -60,8 +60,8 @@ impl<'b, 'a> Bench<'b, 'a> {
         let models = doubt.models(named);
         let data = Data { noise: &named.noise, rows, monitor };
         let held: Vec<Held> = models.par_iter().map(|model| Held::of(model, data)).collect();
-        let behind = doubt.behind(named);
-        let lacks: Vec<f64> = models.iter().map(Candidate::akaike_as_the_smallest).collect();
+        let lacks = doubt.lacks(named);
+        let behind = doubt.behind(named, &lacks);
         let places = doubt.places(named, &lacks);
         let in_doubt = places.iter().flatten().flat_map(|member| member.may_be_true(&lacks));
         let mut true_ones: Vec<(usize, f64)> = std::iter::once((0, 1.0)).chain(in_doubt).collect();

@@ -1,9 +1,7 @@
 //! What is in doubt: effects that may stand in the place of one that was named, and the models of each.
 
-use crate::assembly::Assembly;
 use crate::diagnose::alternatives::may_fit_better;
 use crate::diagnose::candidates::{Candidate, akaike_of_the_smallest, smallest};
-use crate::diagnose::least_squares::Fitted;
 use crate::diagnose::search::Named;
 
 /// A law with a smaller share of the likelihood is not imagined.
@@ -40,15 +38,22 @@ impl<'a> Doubt<'a> {
         std::iter::once(named.itself()).chain(others).collect()
     }
 
-    /// By how much each of these is less likely than the one named, as far as that speaks against it: what a parameter more
-    /// costs where one law is to be named makes it no likelier than the other, nor one that fits better.
-    pub(super) fn behind(&self, named: &Named<'a>) -> Vec<f64> {
+    /// By how much each of these lacks what the one named has by Akaike's criterion.
+    pub(super) fn lacks(&self, named: &Named<'a>) -> Vec<f64> {
         let others = self.laws.iter().chain(&self.rivals).map(|Rival { model, place, .. }| {
-            let known = |of: fn(&Assembly, &Fitted, usize) -> f64| of(&named.assembly, &named.fitted, *place);
-            let bayesian = model.as_the_smallest() - known(smallest);
-            let akaike = model.akaike_as_the_smallest() - known(akaike_of_the_smallest);
+            model.akaike_as_the_smallest() - akaike_of_the_smallest(&named.assembly, &named.fitted, *place)
+        });
+        std::iter::once(0.0).chain(others).collect()
+    }
+
+    /// By how much each is less likely, as far as that speaks against it: what a parameter more costs where one law is to be
+    /// named makes it no likelier than the other, nor one that fits better.
+    pub(super) fn behind(&self, named: &Named<'a>, lacks: &[f64]) -> Vec<f64> {
+        let others = self.laws.iter().chain(&self.rivals).zip(&lacks[1..]);
+        let others = others.map(|(Rival { model, place, .. }, akaike)| {
+            let bayesian = model.as_the_smallest() - smallest(&named.assembly, &named.fitted, *place);
             let fair = may_fit_better(model, &named.noise);
-            counted(if fair { likelier(akaike, bayesian) } else { bayesian }, self.left)
+            counted(if fair { likelier(*akaike, bayesian) } else { bayesian }, self.left)
         });
         std::iter::once(0.0).chain(others).collect()
     }
@@ -98,7 +103,7 @@ pub(super) struct Member {
 impl Member {
     /// Its likeliest model, and those of its other laws that may best be true, each with its share of the likelihood: what
     /// a parameter more costs where a law is to be named says little of which is true, but that it fits better by chance.
-    /// `lacks` is Akaike's criterion.
+    /// `lacks` is by Akaike's criterion.
     pub(super) fn may_be_true(&self, lacks: &[f64]) -> Vec<(usize, f64)> {
         let share = |model: usize| (0.5 * (lacks[self.likeliest] - lacks[model])).exp().min(1.0);
         let others = self.models.iter().copied().filter(|model| *model != self.likeliest);
