@@ -31,7 +31,7 @@ def steady(frequency: float, amplitude: float, rate: float, seed: int) -> Record
 def found() -> mre_core.Diagnosis:
     frequencies = ((0.7, 64.0), (2.3, 128.0), (4.6, 256.0))
     recordings = [
-        steady(frequency, amplitude, rate, 10 * i + k)
+        steady(frequency, amplitude, rate, 100 + 10 * i + k)
         for i, amplitude in enumerate((0.7, 1.5, 2.9))
         for k, (frequency, rate) in enumerate(frequencies)
     ]
