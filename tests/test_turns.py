@@ -8,7 +8,7 @@ from scipy.signal import lfilter  # type: ignore[import-untyped]
 RATE, NOISE, FRICTION = 200.0, 0.7, 30.0
 
 
-def sines(friction: float, signs: str, velocity: str) -> list[Recording]:
+def sines(signs: str, velocity: str) -> list[Recording]:
     """Steady sines of which every quarter is a whole number of samples long."""
     rng = np.random.default_rng(5)
     t = np.arange(1200) / RATE
@@ -21,7 +21,7 @@ def sines(friction: float, signs: str, velocity: str) -> list[Recording]:
         assert at_turns.sum() >= 6
         if signs == "random":
             sign[at_turns] = rng.choice([-1.0, 1.0], at_turns.sum())
-        force = 20 * x + v + friction * sign + NOISE * rng.normal(size=t.size)
+        force = 20 * x + v + FRICTION * sign + NOISE * rng.normal(size=t.size)
         given = v if velocity == "given" else None
         found.append(Recording(t, np.round(x, 6), force, velocity=given, name=f"sine {k}"))
     return found
@@ -30,7 +30,7 @@ def sines(friction: float, signs: str, velocity: str) -> list[Recording]:
 @pytest.mark.parametrize("velocity", ["given", "derived"])
 @pytest.mark.parametrize("signs", ["random", "rounded"])
 def test_friction_is_exact_whatever_its_sign_at_turns(signs: str, velocity: str) -> None:
-    found = diagnose(sines(FRICTION, signs, velocity), base="kelvin_voigt", seed=1)
+    found = diagnose(sines(signs, velocity), base="kelvin_voigt", seed=1)
     assert found.verdict == "missing_physics", found
     (effect,) = found.effects
     assert (effect.id, effect.form) == ("coulomb_friction", "exact")

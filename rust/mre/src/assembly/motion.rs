@@ -62,8 +62,7 @@ fn of_derived(time: &[f64], x: &[f64], derived: Derived) -> Motion {
         let Calm { mut displacement, velocity, noisy } = calming.over(time, x);
         let lost = velocity::give_back(&mut displacement, x);
         let ends = ends(time.len(), derived.half);
-        let left_out = ends.into_iter().chain(derived.unresolved(time, x)).chain(lost);
-        let left_out = velocity::joined(left_out.collect());
+        let left_out = ends.into_iter().chain(derived.unresolved(time, x)).chain(lost).collect();
         let left = some(Left::Derived(calming));
         return (displacement, velocity, Doubts { left_out, noisy, cornered: false, left });
     }
@@ -71,7 +70,7 @@ fn of_derived(time: &[f64], x: &[f64], derived: Derived) -> Motion {
     let parts = Parts::of(time, x, &derived);
     let Calm { mut displacement, velocity, noisy } = parts.calm(time, x, &derived);
     let lost = velocity::give_back(&mut displacement, x);
-    let left_out = velocity::joined(derived.corners.into_iter().chain(lost).collect());
+    let left_out = derived.corners.into_iter().chain(lost).collect();
     let left = some(Left::Between(parts));
     (displacement, velocity, Doubts { left_out, noisy, cornered: derived.sharp, left })
 }

@@ -12,10 +12,10 @@ const FEW: usize = 20;
 
 /// These samples, each a range of its own; none where a cycle has too few.
 pub(crate) fn turns(velocity: &[f64]) -> Vec<Range<usize>> {
-    let turns = |v: &[f64]| v[0] * v[2] < 0.0 && v[1].abs() < NOTHING * v[0].abs().min(v[2].abs());
+    let at_a_turn = |v: &[f64]| v[0] * v[2] < 0.0 && v[1].abs() < NOTHING * v[0].abs().min(v[2].abs());
     let between = velocity.windows(3).enumerate();
     let found: Vec<Range<usize>> =
-        between.filter(|(_, three)| turns(three)).map(|(i, _)| i + 1..i + 2).collect();
+        between.filter(|(_, three)| at_a_turn(three)).map(|(i, _)| i + 1..i + 2).collect();
     if FEW * found.len() > velocity.len() { Vec::new() } else { found }
 }
 
