@@ -69,7 +69,7 @@ fn splits(campaign: &Campaign, base: &Base, by_blocks: bool) -> Vec<Split> {
         let spare = group.len() > FOLDS + 1;
         let judged = group.iter().filter(|r| !spare || !kept.contains(&Some(**r)));
         for (place, r) in judged.enumerate() {
-            fold_of[*r] = Some(place % FOLDS);
+            fold_of[*r] = Some(fold_of_place(place));
         }
     }
     (0..FOLDS)
@@ -83,6 +83,14 @@ fn splits(campaign: &Campaign, base: &Base, by_blocks: bool) -> Vec<Split> {
             split
         })
         .collect()
+}
+
+/// Fold of a recording by its place: each row of as many as there are folds begins one later, as in a Latin square.
+///
+/// Campaigns are rows of as many frequencies at one amplitude after another: in turn, a fold would be all that there is of
+/// one frequency, and what was held out would lie outside what was trained on.
+fn fold_of_place(place: usize) -> usize {
+    (place + place / FOLDS) % FOLDS
 }
 
 /// Places of recordings with the same constant current; one group where it changes within a recording.
@@ -126,4 +134,38 @@ fn blocks(recordings: &[&Recording], fold: usize) -> Split {
         split.held_out.push(held_out);
     }
     split
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_fold_is_all_of_a_frequency_or_of_an_amplitude() {
+        for frequencies in 2..=8 {
+            for amplitudes in [4, 5, 6] {
+                let same = |mut places: Box<dyn Iterator<Item = usize>>| {
+                    let first = places.next().map(fold_of_place);
+                    places.all(|p| Some(fold_of_place(p)) == first)
+                };
+                for f in 0..frequencies {
+                    let column = (0..amplitudes).map(move |a| a * frequencies + f);
+                    assert!(!same(Box::new(column)), "{frequencies} in a row: {f}");
+                }
+                for a in 0..amplitudes {
+                    let row = (0..frequencies).map(move |f| a * frequencies + f);
+                    assert!(!same(Box::new(row)), "{frequencies} in a row");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn folds_are_of_one_size() {
+        for count in 3..40 {
+            let sizes: Vec<usize> =
+                (0..FOLDS).map(|fold| (0..count).filter(|p| fold_of_place(*p) == fold).count()).collect();
+            assert!(sizes.iter().max().unwrap() - sizes.iter().min().unwrap() <= 1, "{count}: {sizes:?}");
+        }
+    }
 }
