@@ -8,8 +8,6 @@ use crate::diagnose::distribution::normal_tail;
 const PLENTY: f64 = 100.0;
 /// What that is worth beside a chance.
 const SURER: f64 = 0.05;
-/// Logarithm of the highest odds that are told of a rival: where it is as good as certain.
-const MOST_ODDS: f64 = 50.0;
 /// A rival with a smaller chance of being ruled out is expected to be left.
 pub(super) const EVEN: f64 = 0.5;
 
@@ -86,8 +84,7 @@ pub(super) fn told(
         all.fold(Evidence::ALL, |least, one| if one.beyond() < least.beyond() { one } else { least })
     };
     for members in places {
-        let odds: Vec<f64> =
-            members.iter().map(|m| (-0.5 * behind[m.likeliest]).min(MOST_ODDS).exp()).collect();
+        let odds: Vec<f64> = members.iter().map(|m| (-0.5 * behind[m.likeliest]).exp()).collect();
         let whole: f64 = odds.iter().sum();
         let found = |truth: &Member, other: &Member| mean(truth, &|t| evidence(t, other).chance());
         let mut certainty = 0.0;
