@@ -108,8 +108,20 @@ def test_without_out_only_tables(cli: Cli, tmp_path: Path, sinh_csv: Path) -> No
     status, out, err = cli("identify", sinh_csv, *SMALL)
     assert (status, err) == (0, "")
     assert "beta" in out
-    assert cli("identify", sinh_csv, *SMALL, "--quiet") == (0, "", "")
     assert everything_in(tmp_path) == before
+
+
+@pytest.mark.parametrize(
+    "command", [["identify", "--model", "sinh"], ["laws", "--model", "sinh"], ["diagnose", "--base", "sinh"]]
+)
+def test_long_work_of_which_nothing_would_be_left_is_refused(
+    cli: Cli, sinh_csv: Path, command: list[str]
+) -> None:
+    status, out, err = cli(command[0], sinh_csv, *command[1:], "--quiet")
+    assert (status, out) == (2, "")
+    assert err == (
+        "mre-core: --quiet prints nothing, wanted --out or --json beside it: nothing would be kept\n"
+    )
 
 
 @pytest.mark.parametrize("repeated", [False, True])

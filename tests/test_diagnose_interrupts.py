@@ -67,7 +67,7 @@ def test_lines_where_there_is_no_terminal(files: list[Path]) -> None:
     run = run_process("diagnose", *files, *options)
     lines = [f"mre-core: diagnosing: {stage}" for stage in STAGES[:-1]]
     assert (run.returncode, run.stderr.splitlines()) == (0, lines)
-    assert run_process("diagnose", *files, *options, "--quiet").stderr == ""
+    assert run_process("diagnose", *files, *options, "--quiet", "--json").stderr == ""
 
 
 @pytest.mark.parametrize("stage", range(1, len(STAGES)))

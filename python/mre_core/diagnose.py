@@ -30,6 +30,7 @@ from .grouping import check_once, each_of, group_by_current, labels
 from .limits import limits_for
 from .minimise import ON_INTERRUPT, draw_seed
 from .model import SIMULATED, Level, Model, simulate
+from .quotients import Derived, left_by, left_by_fit, without_quotients
 from .suitable import check_recordings
 from .tested import largest_motion
 
@@ -127,11 +128,13 @@ def diagnose(
     check_listener(on_stage, "on_stage")
     blank = whole(blank, "blank", 0, MOST_BLANKS)
     seed = draw_seed(seed)
-    groups = group_by_current(everything)
-    places = {id(recording): place for place, recording in enumerate(everything)}
+    levels = len(group_by_current(everything))
     check_once(everything)
     symbols = [] if name == SIMULATED else [symbol for symbol, _ in _core.parameters(name)]
-    check_recordings(everything, 0 if fixed else len(symbols) * len(groups))
+    check_recordings(everything, 0 if fixed else len(symbols) * levels)
+    everything, velocity_derived = _slopes(start, everything, fixed=fixed, threads=threads)
+    groups = group_by_current(everything)
+    places = {id(recording): place for place, recording in enumerate(everything)}
     text, before, after = _core.diagnose_recordings(
         everything,
         name,
@@ -197,6 +200,7 @@ def diagnose(
         refitted=None if raw["refitted"] is None else Refitted(**raw["refitted"]),
         interrupted=raw["interrupted"],
         one_specimen=all(r.past is not None for r in everything),
+        velocity_derived=velocity_derived,
     )
 
 
@@ -222,6 +226,18 @@ def _read(base: str | os.PathLike[str] | Model) -> str | Model:
     if not isinstance(base, str | os.PathLike):
         raise TypeError(f"base is {shown(base)}: wanted the name of a model, a Model or its file")
     return Model.load(base)
+
+
+def _slopes(
+    start: str | Model, recordings: Sequence[Recording], *, fixed: bool, threads: int | None
+) -> Derived:
+    """Take a difference quotient for no velocity, unless the device did."""
+    name = start.name if isinstance(start, Model) else start
+    if name == SIMULATED:
+        return Derived(list(recordings), ())
+    if isinstance(start, Model) and fixed:
+        return without_quotients(recordings, lambda own: left_by(start, own))
+    return without_quotients(recordings, lambda own: left_by_fit(name, own, threads))
 
 
 def _base(start: str | Model, recordings: Sequence[Recording], *, fixed: bool) -> dict[str, Any]:

@@ -146,6 +146,8 @@ class Diagnosis:
     """True where Ctrl-C ended it early: what was not reached is empty, or nan."""
     one_specimen: bool = False
     """True where the recordings follow each other on one specimen."""
+    velocity_derived: tuple[str, ...] = ()
+    """Recordings whose velocity was a difference quotient of the displacement, and was derived anew."""
 
     @property
     def absorbed(self) -> tuple[str, ...]:
@@ -169,6 +171,8 @@ class Diagnosis:
             told.append(words.refitted(self.refitted.rms_as_given, self.refitted.rms_fitted))
         if self.one_specimen:
             told.append(words.ONE_SPECIMEN)
+        if self.velocity_derived:
+            told.append(words.velocity_derived(self.velocity_derived))
         return " ".join(filter(None, told))
 
     def to_dict(self) -> dict[str, Any]:
@@ -204,4 +208,5 @@ class Diagnosis:
             "refitted": None if self.refitted is None else asdict(self.refitted),
             "interrupted": self.interrupted,
             "one_specimen": self.one_specimen,
+            "velocity_derived": list(self.velocity_derived),
         }

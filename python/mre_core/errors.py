@@ -26,6 +26,10 @@ class CopyWarning(UserWarning):
     """A recording holds what another one holds, under another name, current or temperature."""
 
 
+class QuotientWarning(UserWarning):
+    """A recorded velocity is a difference quotient of the displacement, and a derived one fits better."""
+
+
 class ExtrapolationWarning(UserWarning):
     """A simulation leaves the range in which the model was identified."""
 

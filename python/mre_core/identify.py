@@ -16,6 +16,7 @@ from .identification import Identification
 from .measure import measure_fit
 from .minimise import draw_seed
 from .model import Level, Model
+from .quotients import warn_of_quotients
 from .results import StopReason, SwarmResult
 from .suitable import check_force
 from .swarms import afsa, mafsa, pso
@@ -77,6 +78,11 @@ def identify(
     ------
     MreError
         The recordings, the model, a bound or an option cannot be used (a ValueError).
+
+    Warns
+    -----
+    QuotientWarning
+        A recorded velocity is a difference quotient of the displacement, and a derived one fits better.
     """
     choice(optimizer, "optimizer", OPTIMIZERS)
     certify = flag(certify, "certify")
@@ -87,6 +93,7 @@ def identify(
     check_once(everything)
     for recording in everything:
         check_force(recording)
+    warn_of_quotients(everything, name, options.get("threads"))
     shares = _shares(weights, everything, [members for _, members in groups])
     problems = [
         Problem(members, name, bounds, weights=share)

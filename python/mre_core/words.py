@@ -203,6 +203,15 @@ def unknown(found: Mapping[str, Any], nearest: Sequence[str]) -> str:
 ONE_SPECIMEN = "The recordings are taken to follow each other on one specimen."
 
 
+def velocity_derived(names: Sequence[str]) -> str:
+    """Say of which recordings the velocity is another one than was recorded."""
+    of = names[0] if len(names) == 1 else f"{len(names)} recordings"
+    return (
+        f"The recorded velocity of {of} is a difference quotient of the displacement; it was derived anew,"
+        " which fits better."
+    )
+
+
 def noise(p_even: float | None) -> str:
     """Say that the noise follows the motion, where it plainly does."""
     if p_even is None or p_even > PLAINLY_UNEVEN:

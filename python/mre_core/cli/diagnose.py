@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from .arguments import load_all, trimmed
-from .options import WHOLE, common_options, report_options, trim_options
+from .options import WHOLE, check_quiet, common_options, report_options, trim_options
 
 if TYPE_CHECKING:
     from ..diagnosis import Diagnosis, History
@@ -95,6 +95,7 @@ def diagnose(
     from .show import print_diagnosis
     from .stages import stages
 
+    check_quiet(out, as_json=as_json, quiet=quiet)
     with interrupts() as signals:
         loaded = load_all(recordings, mapping, conditions, name_pattern, reading)
         loaded = trimmed(in_order(loaded) if one_specimen else loaded, cut, exclude)

@@ -6,7 +6,7 @@ from typing import Any
 import click
 
 from .arguments import load_all, read_bounds, trimmed, unique_names
-from .options import WHOLE, common_options, fit_options, report_options, trim_options
+from .options import WHOLE, check_quiet, common_options, fit_options, report_options, trim_options
 
 
 @click.command(short_help="Identify a model from recordings.")
@@ -80,6 +80,7 @@ def identify(
     from .settings import write_settings
     from .show import print_identification
 
+    check_quiet(out, as_json=as_json, quiet=quiet)
     loaded = load_all(recordings, mapping, conditions, name_pattern, reading)
     loaded = trimmed(loaded, cut, exclude)
     base = Model.load(model) if model.endswith(".json") else model

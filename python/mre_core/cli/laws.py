@@ -9,7 +9,7 @@ import click
 from ..errors import InputError, listed
 from .again import Again, quietly
 from .arguments import load_each, read_bounds, read_interval, read_parts
-from .options import common_options, fit_options, report_options, trim_options
+from .options import check_quiet, common_options, fit_options, report_options, trim_options
 
 if TYPE_CHECKING:
     from .._core import Recording
@@ -83,6 +83,7 @@ def laws(
     from .settings import write_settings
     from .show_laws import show_laws
 
+    check_quiet(out, as_json=as_json, quiet=quiet)
     interval = None if cut is None else read_interval(cut)
     parts = read_parts(exclude)
 

@@ -6,6 +6,7 @@ from typing import Any, TypeVar
 
 import click
 
+from ..errors import InputError
 from ..files import ReadOptions
 from .settings import read_config
 
@@ -87,6 +88,12 @@ def report_options(command: F) -> F:
     quiet = click.option("--quiet", is_flag=True, help="No progress, no tables.")
     as_json = click.option("--json", "as_json", is_flag=True, help="Results as JSON on standard output.")
     return as_json(quiet(command))
+
+
+def check_quiet(out: Path | None, *, as_json: bool, quiet: bool) -> None:
+    """Refuse long work of which nothing would be left."""
+    if quiet and not as_json and out is None:
+        raise InputError("--quiet prints nothing", wanted="--out or --json beside it: nothing would be kept")
 
 
 def trim_options(command: F) -> F:

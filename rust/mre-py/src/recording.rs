@@ -220,6 +220,14 @@ impl Recording {
         wrap(self.inner.at_current(vector("current", current)?))
     }
 
+    /// The same recording with a derived velocity where the recorded one is a difference quotient of the displacement; None
+    /// where it is not.
+    fn without_quotient(&self, py: Python<'_>) -> PyResult<Option<Self>> {
+        let inner = self.inner.clone();
+        let found = in_pool(py, None, None, true, move |_| inner.without_quotient())?.0;
+        found.map_err(to_python)?.map(|other| wrap(Ok(other))).transpose()
+    }
+
     #[getter]
     fn past(&self) -> Option<Through> {
         let mut past = self.inner.past()?;

@@ -75,14 +75,9 @@ impl Recording {
         let name = series.name.clone();
         check::series(&series).map_err(|error| error.in_recording(&name))?;
         series.time = grid::unrounded(series.time);
-        let (velocity, velocity_window) = if let Some(measured) = series.velocity.take() {
-            (measured, None)
-        } else {
-            let derived = velocity::from_displacement(&series.time, &series.displacement);
-            check::usable("velocity from the displacement", &derived.velocity)
-                .map_err(|error| error.in_recording(&name))?;
-            let window = derived.window(&series.time);
-            (derived.velocity, Some(window))
+        let (velocity, velocity_window) = match series.velocity.take() {
+            Some(measured) => (measured, None),
+            None => derived(&series).map(|(velocity, window)| (velocity, Some(window)))?,
         };
         let scored = 0..velocity.len();
         let (state_change, start, past, ready) = (None, 0.0, None, ready::Ready::default());
@@ -197,6 +192,22 @@ impl Recording {
         Ok(Self { velocity_window, ..self.with_scored(scored)? })
     }
 
+    /// The same recording with a derived velocity where the recorded one is a difference quotient of the displacement;
+    /// `None` where it is not.
+    ///
+    /// # Errors
+    /// A velocity that is not finite or beyond [`LARGEST`].
+    pub fn without_quotient(&self) -> Result<Option<Self>> {
+        if self.velocity_window.is_some() {
+            return Ok(None);
+        }
+        let (velocity, window) = derived(&self.series)?;
+        let quotient = velocity::is_quotient(self.time(), self.displacement(), &self.velocity, &velocity);
+        let ready = ready::Ready::default();
+        let other = || Self { velocity, velocity_window: Some(window), ready, ..self.clone() };
+        Ok(quotient.then(other))
+    }
+
     /// The same motion with another force in N, one value a sample.
     pub(crate) fn with_force(&self, force: Vec<f64>) -> Self {
         let series = Series { force: Some(force), ..self.series.clone() };
@@ -261,6 +272,15 @@ impl Recording {
     pub(crate) fn state_change(&self) -> Option<StateChange> {
         self.state_change
     }
+}
+
+/// Velocity in mm/s derived from the displacement, and the length in s of its window.
+fn derived(series: &Series) -> Result<(Vec<f64>, f64)> {
+    let derived = velocity::from_displacement(&series.time, &series.displacement);
+    check::usable("velocity from the displacement", &derived.velocity)
+        .map_err(|error| error.in_recording(&series.name))?;
+    let window = derived.window(&series.time);
+    Ok((derived.velocity, window))
 }
 
 /// Arithmetic mean.

@@ -1,0 +1,99 @@
+"""Recorded velocities that are difference quotients of the displacement.
+
+One of noisy or coarsely sampled displacement is not what the device felt: it biases the damping, and looks
+like an effect that the device has not. One that a simulation took for the velocity itself is right. The fit
+tells which.
+"""
+
+import warnings
+from collections.abc import Callable, Sequence
+from math import log
+from typing import NamedTuple
+
+import numpy as np
+
+from ._core import Problem, Recording
+from .errors import ExtrapolationWarning, QuotientWarning, listed
+from .fits import exact
+from .grouping import group_by_current, labels
+from .model import Model, simulate
+from .suitable import check_force
+
+_PLAINLY = 10.0
+"""Twice the logarithm of the likelihood by which derived velocities have to fit better."""
+
+Left = Callable[[Sequence[Recording]], float]
+"""Sum of squared errors that a model leaves of recordings, N^2."""
+
+
+class Derived(NamedTuple):
+    """Recordings, those with a quotient with a derived velocity."""
+
+    recordings: list[Recording]
+    """In the order given."""
+    names: tuple[str, ...]
+    """Of those whose velocity is another one now."""
+
+
+def without_quotients(recordings: Sequence[Recording], left: Left) -> Derived:
+    """Derive velocities anew that are difference quotients, where that plainly fits better.
+
+    Parameters
+    ----------
+    recordings : sequence of Recording
+        With force.
+    left : callable
+        What a model leaves of recordings.
+    """
+    others = [recording.without_quotient() for recording in recordings]
+    anew = [given if other is None else other for given, other in zip(recordings, others, strict=True)]
+    changed = [other is not None for other in others]
+    if not any(changed):
+        return Derived(anew, ())
+    before, after = left(recordings), left(anew)
+    if not 0 < after < before or _samples(recordings) * log(before / after) < _PLAINLY:
+        return Derived(list(recordings), ())
+    names = labels([recording.name for recording in recordings])
+    return Derived(anew, tuple(name for name, other in zip(names, changed, strict=True) if other))
+
+
+def warn_of_quotients(recordings: Sequence[Recording], model: str, threads: int | None) -> None:
+    """Warn of velocities that are difference quotients, where derived ones plainly fit better.
+
+    Warns
+    -----
+    QuotientWarning
+        A fit takes the velocity as it is recorded.
+    """
+    _, names = without_quotients(recordings, lambda own: left_by_fit(model, own, threads))
+    if names:
+        text = (
+            f"the velocity of {listed(list(names))} is a difference quotient of the displacement, and one"
+            " that is derived from it by local polynomials fits better: leave the column out"
+        )
+        warnings.warn(text, QuotientWarning, stacklevel=3)
+
+
+def left_by_fit(model: str, recordings: Sequence[Recording], threads: int | None) -> float:
+    """Sum of squared errors in N^2 of a model that is fitted to recordings, current by current."""
+
+    def left(own: list[Recording]) -> float:
+        return exact(Problem(own, model), threads=threads).fitness * _samples(own)
+
+    return sum(left(own) for _, own in group_by_current(recordings))
+
+
+def left_by(model: Model, recordings: Sequence[Recording]) -> float:
+    """Sum of squared errors in N^2 of a model as it is."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ExtrapolationWarning)
+        forces = [simulate(model, recording)[slice(*recording.scored)] for recording in recordings]
+    return sum(
+        float(np.sum((check_force(recording) - force) ** 2))
+        for recording, force in zip(recordings, forces, strict=True)
+    )
+
+
+def _samples(recordings: Sequence[Recording]) -> int:
+    """Count the samples of all that are fitted."""
+    return sum(stop - start for start, stop in (recording.scored for recording in recordings))
