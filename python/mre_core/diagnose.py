@@ -30,7 +30,7 @@ from .grouping import check_once, each_of, group_by_current, labels
 from .limits import limits_for
 from .minimise import ON_INTERRUPT, draw_seed
 from .model import SIMULATED, Level, Model, simulate
-from .quotients import Derived, left_by, left_by_fit, without_quotients
+from .slopes import Derived, derived_where_better, left_by, left_by_fit
 from .suitable import check_recordings
 from .tested import largest_motion
 
@@ -132,7 +132,7 @@ def diagnose(
     check_once(everything)
     symbols = [] if name == SIMULATED else [symbol for symbol, _ in _core.parameters(name)]
     check_recordings(everything, 0 if fixed else len(symbols) * levels)
-    everything, velocity_derived = _slopes(start, everything, fixed=fixed, threads=threads)
+    everything, velocity_derived = _slopes(start, everything, fixed=fixed, threads=workers(threads))
     groups = group_by_current(everything)
     places = {id(recording): place for place, recording in enumerate(everything)}
     text, before, after = _core.diagnose_recordings(
@@ -231,13 +231,13 @@ def _read(base: str | os.PathLike[str] | Model) -> str | Model:
 def _slopes(
     start: str | Model, recordings: Sequence[Recording], *, fixed: bool, threads: int | None
 ) -> Derived:
-    """Take a difference quotient for no velocity, unless the device did."""
+    """Take what is no slope for no velocity, unless the device did."""
     name = start.name if isinstance(start, Model) else start
     if name == SIMULATED:
         return Derived(list(recordings), ())
     if isinstance(start, Model) and fixed:
-        return without_quotients(recordings, lambda own: left_by(start, own))
-    return without_quotients(recordings, lambda own: left_by_fit(name, own, threads))
+        return derived_where_better(recordings, lambda own: left_by(start, own), threads)
+    return derived_where_better(recordings, lambda own: left_by_fit(name, own, threads), threads)
 
 
 def _base(start: str | Model, recordings: Sequence[Recording], *, fixed: bool) -> dict[str, Any]:

@@ -147,7 +147,8 @@ class Diagnosis:
     one_specimen: bool = False
     """True where the recordings follow each other on one specimen."""
     velocity_derived: tuple[str, ...] = ()
-    """Recordings whose velocity was a difference quotient of the displacement, and was derived anew."""
+    """Recordings whose velocity was a difference quotient of the displacement, or smoothed, and was derived
+    anew."""
 
     @property
     def absorbed(self) -> tuple[str, ...]:

@@ -26,8 +26,8 @@ class CopyWarning(UserWarning):
     """A recording holds what another one holds, under another name, current or temperature."""
 
 
-class QuotientWarning(UserWarning):
-    """A recorded velocity is a difference quotient of the displacement, and a derived one fits better."""
+class VelocityWarning(UserWarning):
+    """A recorded velocity is no slope of the displacement, and a derived one fits better."""
 
 
 class ExtrapolationWarning(UserWarning):

@@ -16,8 +16,8 @@ from .identification import Identification
 from .measure import measure_fit
 from .minimise import draw_seed
 from .model import Level, Model
-from .quotients import warn_of_quotients
 from .results import StopReason, SwarmResult
+from .slopes import warn_of_velocities
 from .suitable import check_force
 from .swarms import afsa, mafsa, pso
 from .tested import largest_motion
@@ -81,8 +81,9 @@ def identify(
 
     Warns
     -----
-    QuotientWarning
-        A recorded velocity is a difference quotient of the displacement, and a derived one fits better.
+    VelocityWarning
+        A recorded velocity is a difference quotient of the displacement or smoothed, and a derived one fits
+        better.
     """
     choice(optimizer, "optimizer", OPTIMIZERS)
     certify = flag(certify, "certify")
@@ -93,7 +94,7 @@ def identify(
     check_once(everything)
     for recording in everything:
         check_force(recording)
-    warn_of_quotients(everything, name, options.get("threads"))
+    warn_of_velocities(everything, name, options.get("threads"))
     shares = _shares(weights, everything, [members for _, members in groups])
     problems = [
         Problem(members, name, bounds, weights=share)

@@ -207,8 +207,8 @@ def velocity_derived(names: Sequence[str]) -> str:
     """Say of which recordings the velocity is another one than was recorded."""
     of = names[0] if len(names) == 1 else f"{len(names)} recordings"
     return (
-        f"The recorded velocity of {of} is a difference quotient of the displacement; it was derived anew,"
-        " which fits better."
+        f"The recorded velocity of {of} is a difference quotient of the displacement or smoothed; it was"
+        " derived anew, which fits better."
     )
 
 

@@ -37,7 +37,7 @@ mod _core {
     #[pymodule_export]
     use crate::problem::Problem;
     #[pymodule_export]
-    use crate::recording::Recording;
+    use crate::recording::{Recording, with_slopes};
     #[pymodule_export]
     use crate::swarm::{Swarm, inertia_weight, uniforms};
     #[pymodule_export]

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use mre::recording::{Condition, Past, Recording as Core, Series};
+use mre::recording::{self, Condition, Past, Recording as Core, Series};
 use mre::transient;
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -12,7 +12,7 @@ use pyo3::types::{PyDict, PyTuple};
 use crate::array::vector;
 use crate::error::to_python;
 use crate::run::in_pool;
-use crate::scalars::{Number, Text};
+use crate::scalars::{Number, Text, Whole};
 
 /// A validated recording; immutable.
 ///
@@ -220,14 +220,6 @@ impl Recording {
         wrap(self.inner.at_current(vector("current", current)?))
     }
 
-    /// The same recording with a derived velocity where the recorded one is a difference quotient of the displacement; None
-    /// where it is not.
-    fn without_quotient(&self, py: Python<'_>) -> PyResult<Option<Self>> {
-        let inner = self.inner.clone();
-        let found = in_pool(py, None, None, true, move |_| inner.without_quotient())?.0;
-        found.map_err(to_python)?.map(|other| wrap(Ok(other))).transpose()
-    }
-
     #[getter]
     fn past(&self) -> Option<Through> {
         let mut past = self.inner.past()?;
@@ -279,4 +271,19 @@ impl Recording {
         let arguments = (columns, keywords, this.inner.velocity_window(), this.scored(), this.past());
         Ok((slf.get_type().getattr("_restore")?, arguments.into_pyobject(py)?))
     }
+}
+
+/// Each recording with a derived velocity where the recorded one is a difference quotient of the displacement, or all are
+/// smoothed; None where it stays.
+#[pyfunction]
+#[pyo3(signature = (recordings, *, threads=None))]
+pub(crate) fn with_slopes(
+    py: Python<'_>,
+    recordings: Vec<Recording>,
+    threads: Option<Whole>,
+) -> PyResult<Vec<Option<Recording>>> {
+    let inner: Vec<Arc<Core>> = recordings.into_iter().map(|recording| recording.inner).collect();
+    let found = in_pool(py, threads, None, true, |_| recording::with_slopes(&inner))?.0;
+    let wrapped = |found: Option<Core>| found.map(|core| Recording { inner: Arc::new(core) });
+    Ok(found.map_err(to_python)?.into_iter().map(wrapped).collect())
 }

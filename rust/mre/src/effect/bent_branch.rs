@@ -32,31 +32,80 @@ const BENDS: [f64; 2] = [0.1, 0.4];
 /// Samples in the shortest relaxation time.
 const SHORTEST: f64 = 5.0;
 
+/// Steps of time that differ by a smaller share are the same.
+const SAME: f64 = 1e-9;
+/// Motion in units of the bend that no branch keeps.
+const FAR: f64 = 300.0;
+
+/// A rest of a branch.
+#[derive(Debug, Clone, Copy)]
+struct Rest {
+    left: f64,
+    lost: f64,
+}
+
+/// The state of a branch is the stretch of its spring in units of the bend; where the dashpot yields, its exponential, which
+/// neither a rest nor a motion needs a logarithm of.
 impl BentBranch {
-    /// Stretch of the spring, in units of the bend, after a rest of `passed` relaxation times.
-    fn relaxed(self, stretch: f64, passed: f64) -> f64 {
-        let left = (-passed).exp();
+    fn unstretched(self) -> f64 {
+        match self {
+            Self::Spring => 0.0,
+            Self::Dashpot => 1.0,
+        }
+    }
+
+    /// A rest of so many relaxation times.
+    fn rest(self, passed: f64) -> Rest {
+        let times = match self {
+            Self::Spring => 2.0,
+            Self::Dashpot => 1.0,
+        };
+        Rest { left: (-passed).exp(), lost: -(-times * passed).exp_m1() }
+    }
+
+    /// The state after a rest.
+    fn rested(self, state: f64, Rest { left, lost }: Rest) -> f64 {
         match self {
             // q/sqrt(1 + q^2) falls exponentially.
-            Self::Spring => {
-                let lost = -(-2.0 * passed).exp_m1();
-                stretch * left / (1.0 + stretch * stretch * lost).sqrt()
-            }
-            // So does tanh(q/2), here with what it lacks of one.
+            Self::Spring => state * left / (1.0 + state * state * lost).sqrt(),
+            // So does tanh(q/2).
             Self::Dashpot => {
-                let near = (-stretch.abs()).exp();
-                let share = left * (1.0 - near) / (1.0 + near);
-                let lacks = left * 2.0 * near / (1.0 + near) - (-passed).exp_m1();
-                (2.0 * share / lacks).ln_1p().copysign(stretch)
+                let kept = 1.0 + left;
+                (state * kept + lost) / (state * lost + kept)
             }
         }
     }
 
-    /// Force for a stretch in units of the bend.
-    fn force(self, stretch: f64) -> f64 {
+    /// A motion in units of the bend, as it shifts the state.
+    fn shift(self, by: f64) -> f64 {
         match self {
-            Self::Spring => stretch * (1.0 + stretch * stretch),
-            Self::Dashpot => stretch,
+            Self::Spring => by,
+            Self::Dashpot => by.clamp(-FAR, FAR).exp(),
+        }
+    }
+
+    /// The state after a motion.
+    fn shifted(self, state: f64, shift: f64) -> f64 {
+        match self {
+            Self::Spring => state + shift,
+            Self::Dashpot => state * shift,
+        }
+    }
+
+    /// The state with the stretch extrapolated from those of one step and of two.
+    fn extrapolated(self, once: f64, twice: f64) -> f64 {
+        match self {
+            Self::Spring => (4.0 * twice - once) / 3.0,
+            // The cube root of their ratio, but for its third order.
+            Self::Dashpot => twice * (2.0 * twice + once) / (twice + 2.0 * once),
+        }
+    }
+
+    /// Force of a state in units of the bend.
+    fn force(self, state: f64) -> f64 {
+        match self {
+            Self::Spring => state * (1.0 + state * state),
+            Self::Dashpot => state.ln(),
         }
     }
 }
@@ -110,18 +159,22 @@ impl Effect for BentBranch {
         let [tau, bend] = [shape[0], shape[1]];
         let (time, v) = (scene.time, scene.velocity);
         let bent = bends(time, v);
-        let stretch = scene.trace(0.0, |q, i| {
+        let (mut known, mut long, mut short) = (0.0, self.rest(0.0), self.rest(0.0));
+        let states = scene.trace(self.unstretched(), |state, i| {
             let step = time[i] - time[i - 1];
+            if (step - known).abs() > SAME * known {
+                (known, long, short) = (step, self.rest(0.5 * step / tau), self.rest(0.25 * step / tau));
+            }
             let curved = (bent[i - 1] + bent[i]) / 24.0;
             let half = 0.5 * step / bend;
-            let early = half * (0.75 * v[i - 1] + 0.25 * v[i] - curved);
-            let late = half * (0.25 * v[i - 1] + 0.75 * v[i] - curved);
-            let quarter = 0.25 * step / tau;
-            let once = self.relaxed(self.relaxed(q, 2.0 * quarter) + early + late, 2.0 * quarter);
-            let moved = self.relaxed(self.relaxed(q, quarter) + early, 2.0 * quarter);
-            let twice = self.relaxed(moved + late, quarter);
-            (4.0 * twice - once) / 3.0
+            let early = self.shift(half * (0.75 * v[i - 1] + 0.25 * v[i] - curved));
+            let late = self.shift(half * (0.25 * v[i - 1] + 0.75 * v[i] - curved));
+            let moved = self.shifted(self.shifted(self.rested(state, long), early), late);
+            let once = self.rested(moved, long);
+            let moved = self.rested(self.shifted(self.rested(state, short), early), long);
+            let twice = self.rested(self.shifted(moved, late), short);
+            self.extrapolated(once, twice)
         });
-        vec![stretch.into_iter().map(|q| bend * self.force(q)).collect()]
+        vec![states.into_iter().map(|state| bend * self.force(state)).collect()]
     }
 }

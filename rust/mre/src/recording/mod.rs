@@ -8,12 +8,14 @@ mod cut;
 mod grid;
 mod past;
 mod ready;
+mod slopes;
 
 use std::ops::Range;
 
 pub use condition::Condition;
 pub(crate) use grid::even_step;
 pub use past::Past;
+pub use slopes::with_slopes;
 
 use crate::error::{Error, Result};
 use crate::kernel::state_change::StateChange;
@@ -190,22 +192,6 @@ impl Recording {
     /// As [`Recording::with_scored`].
     pub fn restored(&self, velocity_window: Option<f64>, scored: Range<usize>) -> Result<Self> {
         Ok(Self { velocity_window, ..self.with_scored(scored)? })
-    }
-
-    /// The same recording with a derived velocity where the recorded one is a difference quotient of the displacement;
-    /// `None` where it is not.
-    ///
-    /// # Errors
-    /// A velocity that is not finite or beyond [`LARGEST`].
-    pub fn without_quotient(&self) -> Result<Option<Self>> {
-        if self.velocity_window.is_some() {
-            return Ok(None);
-        }
-        let (velocity, window) = derived(&self.series)?;
-        let quotient = velocity::is_quotient(self.time(), self.displacement(), &self.velocity, &velocity);
-        let ready = ready::Ready::default();
-        let other = || Self { velocity, velocity_window: Some(window), ready, ..self.clone() };
-        Ok(quotient.then(other))
     }
 
     /// The same motion with another force in N, one value a sample.

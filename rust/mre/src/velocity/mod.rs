@@ -8,6 +8,7 @@
 //!
 //! Known limit: displacement noise that is itself smooth cannot be told from motion.
 
+mod another;
 mod bends;
 mod breaks;
 mod calming;
@@ -21,7 +22,6 @@ mod lost;
 mod low_pass;
 mod octaves;
 mod parts;
-mod quotient;
 mod recorded;
 mod rest;
 mod smoothing;
@@ -33,6 +33,7 @@ mod window;
 use std::ops::Range;
 
 use crate::recording::even_step;
+pub(crate) use another::{Recorded, are_others};
 use bends::{Bends, bends};
 use breaks::{between, between_breaks};
 pub use calming::{Calm, Calming};
@@ -42,7 +43,6 @@ pub(crate) use left::Left;
 use local::{NARROWEST, TERMS};
 pub(crate) use lost::give_back;
 pub(crate) use parts::Parts;
-pub(crate) use quotient::is_quotient;
 pub(crate) use recorded::{Smoothed, smoothed};
 pub use smoothing::Smoothing;
 use stencil::grid;

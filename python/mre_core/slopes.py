@@ -1,8 +1,7 @@
-"""Recorded velocities that are difference quotients of the displacement.
+"""Recorded velocities that are no slopes: difference quotients of the displacement, or smoothed.
 
-One of noisy or coarsely sampled displacement is not what the device felt: it biases the damping, and looks
-like an effect that the device has not. One that a simulation took for the velocity itself is right. The fit
-tells which.
+They are not what the device felt: they bias the damping, and look like an effect that the device has not. One
+that a simulation took for the velocity itself is right. The fit tells which.
 """
 
 import warnings
@@ -12,8 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ._core import Problem, Recording
-from .errors import ExtrapolationWarning, QuotientWarning, listed
+from ._core import Problem, Recording, with_slopes
+from .errors import ExtrapolationWarning, VelocityWarning, listed
 from .fits import exact
 from .grouping import group_by_current, labels
 from .model import Model, simulate
@@ -27,7 +26,7 @@ Left = Callable[[Sequence[Recording]], float]
 
 
 class Derived(NamedTuple):
-    """Recordings, those with a quotient with a derived velocity."""
+    """Recordings, some of them with a derived velocity."""
 
     recordings: list[Recording]
     """In the order given."""
@@ -35,8 +34,8 @@ class Derived(NamedTuple):
     """Of those whose velocity is another one now."""
 
 
-def without_quotients(recordings: Sequence[Recording], left: Left) -> Derived:
-    """Derive velocities anew that are difference quotients, where that plainly fits better.
+def derived_where_better(recordings: Sequence[Recording], left: Left, threads: int | None = None) -> Derived:
+    """Derive velocities anew that are no slopes, where that plainly fits better.
 
     Parameters
     ----------
@@ -44,34 +43,35 @@ def without_quotients(recordings: Sequence[Recording], left: Left) -> Derived:
         With force.
     left : callable
         What a model leaves of recordings.
+    threads : int, optional
+        All cores by default.
     """
-    others = [recording.without_quotient() for recording in recordings]
-    anew = [given if other is None else other for given, other in zip(recordings, others, strict=True)]
-    changed = [other is not None for other in others]
-    if not any(changed):
-        return Derived(anew, ())
+    found = with_slopes(recordings, threads=threads)
+    if not any(other is not None for other in found):
+        return Derived(list(recordings), ())
+    anew = [given if other is None else other for given, other in zip(recordings, found, strict=True)]
     before, after = left(recordings), left(anew)
     if not 0 < after < before or _samples(recordings) * log(before / after) < _PLAINLY:
         return Derived(list(recordings), ())
     names = labels([recording.name for recording in recordings])
-    return Derived(anew, tuple(name for name, other in zip(names, changed, strict=True) if other))
+    return Derived(anew, tuple(name for name, other in zip(names, found, strict=True) if other is not None))
 
 
-def warn_of_quotients(recordings: Sequence[Recording], model: str, threads: int | None) -> None:
-    """Warn of velocities that are difference quotients, where derived ones plainly fit better.
+def warn_of_velocities(recordings: Sequence[Recording], model: str, threads: int | None) -> None:
+    """Warn of velocities that are no slopes, where derived ones plainly fit better.
 
     Warns
     -----
-    QuotientWarning
+    VelocityWarning
         A fit takes the velocity as it is recorded.
     """
-    _, names = without_quotients(recordings, lambda own: left_by_fit(model, own, threads))
+    _, names = derived_where_better(recordings, lambda own: left_by_fit(model, own, threads), threads)
     if names:
         text = (
-            f"the velocity of {listed(list(names))} is a difference quotient of the displacement, and one"
-            " that is derived from it by local polynomials fits better: leave the column out"
+            f"the velocity of {listed(list(names))} is a difference quotient of the displacement or smoothed,"
+            " and one that is derived by local polynomials fits better: leave the column out"
         )
-        warnings.warn(text, QuotientWarning, stacklevel=3)
+        warnings.warn(text, VelocityWarning, stacklevel=3)
 
 
 def left_by_fit(model: str, recordings: Sequence[Recording], threads: int | None) -> float:
