@@ -31,6 +31,7 @@ __all__ = [
     "parameters",
     "simulate",
     "uniforms",
+    "with_slopes",
 ]
 
 __version__: str

@@ -132,7 +132,7 @@ def diagnose(
     check_once(everything)
     symbols = [] if name == SIMULATED else [symbol for symbol, _ in _core.parameters(name)]
     check_recordings(everything, 0 if fixed else len(symbols) * levels)
-    everything, velocity_derived = _slopes(start, everything, fixed=fixed, threads=workers(threads))
+    everything, velocity_derived = _slopes(start, everything, fixed=fixed, threads=threads)
     groups = group_by_current(everything)
     places = {id(recording): place for place, recording in enumerate(everything)}
     text, before, after = _core.diagnose_recordings(

@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ._core import Problem, Recording, with_slopes
+from .checks import workers
 from .errors import ExtrapolationWarning, VelocityWarning, listed
 from .fits import exact
 from .grouping import group_by_current, labels
@@ -46,7 +47,7 @@ def derived_where_better(recordings: Sequence[Recording], left: Left, threads: i
     threads : int, optional
         All cores by default.
     """
-    found = with_slopes(recordings, threads=threads)
+    found = with_slopes(recordings, threads=workers(threads))
     if not any(other is not None for other in found):
         return Derived(list(recordings), ())
     anew = [given if other is None else other for given, other in zip(recordings, found, strict=True)]
