@@ -21,7 +21,14 @@ if TYPE_CHECKING:
     from .diagnose import diagnose
     from .diagnosis import Diagnosis, MissingEffect
     from .effects import Effect
-    from .errors import CopyWarning, ExtrapolationWarning, InputError, SkippedWarning, UnitAssumedWarning
+    from .errors import (
+        CopyWarning,
+        ExtrapolationWarning,
+        InputError,
+        SkippedWarning,
+        UnitAssumedWarning,
+        VelocityWarning,
+    )
     from .fits import exact, hybrid
     from .identification import Identification
     from .identify import identify
@@ -66,6 +73,7 @@ __all__ = [
     "SwarmResult",
     "Uncertainty",
     "UnitAssumedWarning",
+    "VelocityWarning",
     "__version__",
     "afsa",
     "batch",
@@ -107,7 +115,7 @@ _HOMES = {
     "diagnose": "diagnose",
     "diagnosis": "Diagnosis MissingEffect",
     "effects": "Effect",
-    "errors": "CopyWarning ExtrapolationWarning InputError SkippedWarning UnitAssumedWarning",
+    "errors": "CopyWarning ExtrapolationWarning InputError SkippedWarning UnitAssumedWarning VelocityWarning",
     "fits": "exact hybrid",
     "identification": "Identification",
     "identify": "identify",
