@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from mre_core import Model, Recording, diagnose, identify
+from mre_core import Model, Recording, _core, diagnose, identify
 from mre_core.errors import VelocityWarning
 from mre_core.model import Level
 from numpy.typing import NDArray
@@ -71,7 +71,26 @@ def test_what_is_missing_is_found_beside_it() -> None:
     assert found.velocity_derived == ("sine 1", "sine 3", "sweep")
 
 
-@pytest.mark.parametrize("made", [central, backward])
+@pytest.mark.parametrize(("of_displacement", "of_velocity"), [(0.003, 0.0), (0.0, 1.0), (0.003, 1.0)])
+def test_noise_is_no_reason(of_displacement: float, of_velocity: float) -> None:
+    rng = np.random.default_rng(7)
+    t = np.arange(2000) / RATE
+    x, v = np.zeros(t.size), np.zeros(t.size)
+    for amplitude, w in ((4.0, 3.0), (2.0, 21.0), (0.5, 50.0)):
+        x += amplitude * np.sin(w * t)
+        v += amplitude * w * np.cos(w * t)
+    x += of_displacement * rng.normal(size=t.size)
+    v += of_velocity * rng.normal(size=t.size)
+    assert _core.with_slopes([Recording(t, x, 12 * x, velocity=v)]) == [None]
+
+
+def test_recordings_without_a_velocity_stay_as_they_are() -> None:
+    first, *others = campaign(central)
+    plain = Recording(first.time, first.displacement, first.force, current=0.0, name="plain")
+    assert diagnose([plain, *others], "sinh", seed=1).velocity_derived == ("sine 3", "sweep")
+
+
+@pytest.mark.parametrize("made", [central, backward, mean])
 def test_a_simulation_whose_velocity_it_was_keeps_it(made: Made) -> None:
     found = diagnose(campaign(made, felt=True), "sinh", seed=1)
     assert (found.verdict, found.velocity_derived) == ("adequate", ())

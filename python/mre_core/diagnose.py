@@ -132,7 +132,10 @@ def diagnose(
     check_once(everything)
     symbols = [] if name == SIMULATED else [symbol for symbol, _ in _core.parameters(name)]
     check_recordings(everything, 0 if fixed else len(symbols) * levels)
-    everything, velocity_derived = _slopes(start, everything, fixed=fixed, threads=threads)
+    keywords = _of_the_recordings(start, everything, limits, fixed=fixed)
+    if (anew := _slopes(start, everything, fixed=fixed, threads=threads)).names:
+        everything = anew.recordings
+        keywords = _of_the_recordings(start, everything, limits, fixed=fixed)
     groups = group_by_current(everything)
     places = {id(recording): place for place, recording in enumerate(everything)}
     text, before, after = _core.diagnose_recordings(
@@ -142,12 +145,11 @@ def diagnose(
         false_alarm=float(false_alarm),
         seed=seed,
         without=ruled_out,
-        **limits_for({} if limits is None else limits, everything, fixed=fixed),
         blank=blank,
         threads=workers(threads),
         on_stage=on_stage,
         on_interrupt=on_interrupt,
-        **_base(start, everything, fixed=fixed),
+        **keywords,
     )
     raw = json.loads(text)
     currents = [current for current, _ in groups]
@@ -200,7 +202,7 @@ def diagnose(
         refitted=None if raw["refitted"] is None else Refitted(**raw["refitted"]),
         interrupted=raw["interrupted"],
         one_specimen=all(r.past is not None for r in everything),
-        velocity_derived=velocity_derived,
+        velocity_derived=anew.names,
     )
 
 
@@ -226,6 +228,14 @@ def _read(base: str | os.PathLike[str] | Model) -> str | Model:
     if not isinstance(base, str | os.PathLike):
         raise TypeError(f"base is {shown(base)}: wanted the name of a model, a Model or its file")
     return Model.load(base)
+
+
+def _of_the_recordings(
+    start: str | Model, recordings: Sequence[Recording], limits: Mapping[str, Any] | None, *, fixed: bool
+) -> dict[str, Any]:
+    """Tell what the core needs beside recordings: limits of a test, and the base."""
+    within = limits_for({} if limits is None else limits, recordings, fixed=fixed)
+    return within | _base(start, recordings, fixed=fixed)
 
 
 def _slopes(

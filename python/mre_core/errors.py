@@ -6,7 +6,15 @@ from unicodedata import category
 
 from ._core import MreError
 
-__all__ = ["ExtrapolationWarning", "InputError", "MreError", "SkippedWarning", "UnitAssumedWarning"]
+__all__ = [
+    "CopyWarning",
+    "ExtrapolationWarning",
+    "InputError",
+    "MreError",
+    "SkippedWarning",
+    "UnitAssumedWarning",
+    "VelocityWarning",
+]
 
 _LONGEST = 2000
 _LONGEST_VALUE = 60

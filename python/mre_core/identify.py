@@ -17,7 +17,7 @@ from .measure import measure_fit
 from .minimise import draw_seed
 from .model import Level, Model
 from .results import StopReason, SwarmResult
-from .slopes import warn_of_velocities
+from .slopes import left_by_fit, warn_of_velocities
 from .suitable import check_force
 from .swarms import afsa, mafsa, pso
 from .tested import largest_motion
@@ -94,7 +94,6 @@ def identify(
     check_once(everything)
     for recording in everything:
         check_force(recording)
-    warn_of_velocities(everything, name, options.get("threads"))
     shares = _shares(weights, everything, [members for _, members in groups])
     problems = [
         Problem(members, name, bounds, weights=share)
@@ -122,6 +121,9 @@ def identify(
             break
     found = Model(name, tuple(levels), largest_motion(everything))
     fits = tuple(measure_fit(found, recording) for recording in everything)
+    if runs[-1].reason is not StopReason.INTERRUPTED:
+        threads = options.get("threads")
+        warn_of_velocities(everything, lambda own: left_by_fit(name, own, threads, bounds), threads)
     return Identification(found, tuple(runs), fits, optimizer, seed, tuple(problems[: len(runs)]))
 
 

@@ -5,7 +5,8 @@ that a simulation took for the velocity itself is right. The fit tells which.
 """
 
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from math import log
 from typing import NamedTuple
 
@@ -20,7 +21,7 @@ from .model import Model, simulate
 from .suitable import check_force
 
 _PLAINLY = 10.0
-"""Twice the logarithm of the likelihood by which derived velocities have to fit better."""
+"""Twice the logarithm of the likelihood, of white errors, by which derived velocities have to fit better."""
 
 Left = Callable[[Sequence[Recording]], float]
 """Sum of squared errors that a model leaves of recordings, N^2."""
@@ -58,7 +59,7 @@ def derived_where_better(recordings: Sequence[Recording], left: Left, threads: i
     return Derived(anew, tuple(name for name, other in zip(names, found, strict=True) if other is not None))
 
 
-def warn_of_velocities(recordings: Sequence[Recording], model: str, threads: int | None) -> None:
+def warn_of_velocities(recordings: Sequence[Recording], left: Left, threads: int | None) -> None:
     """Warn of velocities that are no slopes, where derived ones plainly fit better.
 
     Warns
@@ -66,7 +67,9 @@ def warn_of_velocities(recordings: Sequence[Recording], model: str, threads: int
     VelocityWarning
         A fit takes the velocity as it is recorded.
     """
-    _, names = derived_where_better(recordings, lambda own: left_by_fit(model, own, threads), threads)
+    names: tuple[str, ...] = ()
+    with suppress(KeyboardInterrupt):  # what is warned of is done
+        _, names = derived_where_better(recordings, left, threads)
     if names:
         text = (
             f"the velocity of {listed(list(names))} is a difference quotient of the displacement or smoothed,"
@@ -75,13 +78,21 @@ def warn_of_velocities(recordings: Sequence[Recording], model: str, threads: int
         warnings.warn(text, VelocityWarning, stacklevel=3)
 
 
-def left_by_fit(model: str, recordings: Sequence[Recording], threads: int | None) -> float:
-    """Sum of squared errors in N^2 of a model that is fitted to recordings, current by current."""
+def left_by_fit(
+    model: str,
+    recordings: Sequence[Recording],
+    threads: int | None,
+    bounds: Mapping[str, tuple[float, float]] | None = None,
+) -> float:
+    """Sum of squared errors in N^2 of a model that is fitted to recordings, current by current.
 
-    def left(own: list[Recording]) -> float:
-        return exact(Problem(own, model), threads=threads).fitness * _samples(own)
+    Of a model with effects it is that of its equation alone.
+    """
 
-    return sum(left(own) for _, own in group_by_current(recordings))
+    def squares(own: list[Recording]) -> float:
+        return exact(Problem(own, model, bounds), threads=threads).fitness * _samples(own)
+
+    return sum(squares(own) for _, own in group_by_current(recordings))
 
 
 def left_by(model: Model, recordings: Sequence[Recording]) -> float:

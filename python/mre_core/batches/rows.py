@@ -63,6 +63,7 @@ def row_of_diagnosis(found: Diagnosis, recordings: Sequence[Recording]) -> Row:
         "held_out_rms_before_N": fit.held_out_rms_before,
         "held_out_rms_after_N": fit.held_out_rms_after,
         "noise_rms_N": fit.noise_rms,
+        "velocity_derived": ", ".join(found.velocity_derived),
     }
 
 

@@ -23,6 +23,7 @@ _SHOWN = {
         "seed",
         "interrupted",
         "one_specimen",
+        "velocity_derived",
         "blank",
     ),
 }

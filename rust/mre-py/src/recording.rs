@@ -285,5 +285,5 @@ pub(crate) fn with_slopes(
     let inner: Vec<Arc<Core>> = recordings.into_iter().map(|recording| recording.inner).collect();
     let found = in_pool(py, threads, None, true, |_| recording::with_slopes(&inner))?.0;
     let wrapped = |found: Option<Core>| found.map(|core| Recording { inner: Arc::new(core) });
-    Ok(found.map_err(to_python)?.into_iter().map(wrapped).collect())
+    Ok(found.into_iter().map(wrapped).collect())
 }

@@ -15,7 +15,7 @@
 
 use super::maxwell::Maxwell;
 use super::{About, Effect, Scene, Sizes, ideal_above, order_within, orders};
-use crate::kernel::relaxation::bends;
+use crate::kernel::relaxation::{bends, runs};
 use crate::parameter::Parameter;
 
 /// What of a branch is not linear.
@@ -32,15 +32,15 @@ const BENDS: [f64; 2] = [0.1, 0.4];
 /// Samples in the shortest relaxation time.
 const SHORTEST: f64 = 5.0;
 
-/// Steps of time that differ by a smaller share are the same.
-const SAME: f64 = 1e-9;
 /// Motion in units of the bend that no branch keeps.
 const FAR: f64 = 300.0;
 
 /// A rest of a branch.
 #[derive(Debug, Clone, Copy)]
 struct Rest {
+    /// Share of the invariant of the law that is left.
     left: f64,
+    /// What the closed form has beside it: what is lost of the square of the invariant, or of itself where the dashpot yields.
     lost: f64,
 }
 
@@ -159,22 +159,24 @@ impl Effect for BentBranch {
         let [tau, bend] = [shape[0], shape[1]];
         let (time, v) = (scene.time, scene.velocity);
         let bent = bends(time, v);
-        let (mut known, mut long, mut short) = (0.0, self.rest(0.0), self.rest(0.0));
-        let states = scene.trace(self.unstretched(), |state, i| {
-            let step = time[i] - time[i - 1];
-            if (step - known).abs() > SAME * known {
-                (known, long, short) = (step, self.rest(0.5 * step / tau), self.rest(0.25 * step / tau));
+        let mut state = self.unstretched();
+        let mut forces = vec![bend * self.force(state)];
+        for (from, to) in runs(time) {
+            let step = time[from] - time[from - 1];
+            let (long, short) = (self.rest(0.5 * step / tau), self.rest(0.25 * step / tau));
+            for i in from..to {
+                let curved = (bent[i - 1] + bent[i]) / 24.0;
+                let half = 0.5 * step / bend;
+                let early = self.shift(half * (0.75 * v[i - 1] + 0.25 * v[i] - curved));
+                let late = self.shift(half * (0.25 * v[i - 1] + 0.75 * v[i] - curved));
+                let moved = self.shifted(self.shifted(self.rested(state, long), early), late);
+                let once = self.rested(moved, long);
+                let moved = self.rested(self.shifted(self.rested(state, short), early), long);
+                let twice = self.rested(self.shifted(moved, late), short);
+                state = self.extrapolated(once, twice);
+                forces.push(bend * self.force(state));
             }
-            let curved = (bent[i - 1] + bent[i]) / 24.0;
-            let half = 0.5 * step / bend;
-            let early = self.shift(half * (0.75 * v[i - 1] + 0.25 * v[i] - curved));
-            let late = self.shift(half * (0.25 * v[i - 1] + 0.75 * v[i] - curved));
-            let moved = self.shifted(self.shifted(self.rested(state, long), early), late);
-            let once = self.rested(moved, long);
-            let moved = self.rested(self.shifted(self.rested(state, short), early), long);
-            let twice = self.rested(self.shifted(moved, late), short);
-            self.extrapolated(once, twice)
-        });
-        vec![states.into_iter().map(|state| bend * self.force(state)).collect()]
+        }
+        vec![forces]
     }
 }

@@ -53,23 +53,29 @@ fn is_quotient(&Recorded { time, displacement, velocity, slope }: &Recorded) -> 
 }
 
 /// True where they lack what is fast in the slopes, and are not late. Times that are not even tell nothing.
+///
+/// What was recorded is the instrument: noise of the slopes alone would be lacking from it, and does not go with it.
 fn are_smoothed(motions: &[Recorded]) -> bool {
-    let (mut matrix, mut right) = (Matrix3::zeros(), Vector3::zeros());
+    let (mut gram, mut matrix, mut right) = (Matrix3::zeros(), Matrix3::zeros(), Vector3::zeros());
     for Recorded { time, velocity, slope, .. } in motions {
         let Some(step) = grid(time) else { continue };
+        let row = |series: &[f64], i: usize| {
+            let [before, now, after] = [series[i - 1], series[i], series[i + 1]];
+            Vector3::new(now, (after - before) / (2.0 * step), (after - 2.0 * now + before) / step.powi(2))
+        };
         for i in 1..slope.len() - 1 {
-            let [before, now, after] = [slope[i - 1], slope[i], slope[i + 1]];
-            let bend = (after - 2.0 * now + before) / step.powi(2);
-            let row = Vector3::new(now, (after - before) / (2.0 * step), bend);
-            matrix += row * row.transpose();
-            right += row * (velocity[i] - now);
+            let (own, instrument) = (row(slope, i), row(velocity, i));
+            gram += own * own.transpose();
+            matrix += instrument * own.transpose();
+            right += instrument * (velocity[i] - slope[i]);
         }
     }
-    let sizes = matrix.diagonal().map(f64::sqrt);
-    let scaled = matrix.component_div(&(sizes * sizes.transpose()));
-    let Some(inverse) = scaled.try_inverse() else { return false };
-    let shares = inverse * right.component_div(&sizes);
-    inverse[(2, 2)] < TOLD && shares[2] > LACKS * sizes[0] && shares[1].abs() < IN_STEP * shares[2]
+    let sizes = gram.diagonal().map(f64::sqrt);
+    let alone = gram.component_div(&(sizes * sizes.transpose())).try_inverse();
+    let parts = matrix.try_inverse().map(|inverse| (inverse * right).component_mul(&sizes));
+    alone.zip(parts).is_some_and(|(alone, parts)| {
+        alone[(2, 2)] < TOLD && parts[2] > LACKS * sizes[0] && parts[1].abs() < IN_STEP * parts[2]
+    })
 }
 
 #[cfg(test)]
@@ -96,6 +102,9 @@ mod tests {
         let noisy: Vec<f64> = slope.iter().zip(0..).map(|(v, i)| 1.03 * v + f64::from(7 * i).sin()).collect();
         assert!(!smoothed(&noisy, &slope));
         assert!(!smoothed(&slope, &mean(0.0)));
+        // As a narrow window leaves it.
+        let wavy: Vec<f64> = slope.iter().zip(0..).map(|(v, i)| v + f64::from(i).sin()).collect();
+        assert!(!smoothed(&slope, &wavy) && smoothed(&mean(0.0), &wavy));
         // In one sine it is a gain, beside another it is told.
         let sine =
             |rate: f64, gain: f64| -> Vec<f64> { time.iter().map(|t| gain * (rate * t).cos()).collect() };

@@ -281,23 +281,43 @@ fn stretched(stage: &Stage, rate: impl Fn(f64) -> f64) -> Vec<f64> {
 
 #[test]
 fn a_branch_that_is_not_linear_follows_its_equation() {
-    let stage = Stage::sine(5.0, 1.0, 3.0);
-    for (tau, bend) in [(0.02, 0.1), (0.2, 0.5), (0.2, 4.0), (2.0, 15.0)] {
-        let hard = |q: f64| q * (1.0 + (q / bend) * (q / bend));
-        let yielding = |q: f64| bend * (q / bend).sinh();
-        let exact = [
-            (
-                "one branch, hardening spring",
-                stretched(&stage, |q| -hard(q) / tau).into_iter().map(hard).collect(),
-            ),
-            ("one branch, Eyring dashpot", stretched(&stage, |q| -yielding(q) / tau)),
-        ];
-        for (name, wanted) in exact {
-            let found = column("maxwell_relaxation", name, &stage.scene(), &[tau, bend]);
-            let size = wanted.iter().fold(0.0_f64, |most, f| most.max(f.abs()));
-            for (found, wanted) in found.iter().zip(&wanted) {
-                assert!((found - wanted).abs() < 5e-4 * size, "{name} {tau} {bend}: {found} for {wanted}");
+    let swung = |t: f64| (5.0 * (TAU * t).sin(), 5.0 * TAU * (TAU * t).cos());
+    let uneven = grid(1e-3, 3.0).into_iter().map(|t| t + 2e-4 * (300.0 * t).sin()).collect();
+    for stage in [Stage::sine(5.0, 1.0, 3.0), Stage::new(uneven, swung, None)] {
+        for (tau, bend) in [(0.02, 0.1), (0.2, 0.5), (0.2, 4.0), (2.0, 15.0)] {
+            let hard = |q: f64| q * (1.0 + (q / bend) * (q / bend));
+            let yielding = |q: f64| bend * (q / bend).sinh();
+            let exact = [
+                (
+                    "one branch, hardening spring",
+                    stretched(&stage, |q| -hard(q) / tau).into_iter().map(hard).collect(),
+                ),
+                ("one branch, Eyring dashpot", stretched(&stage, |q| -yielding(q) / tau)),
+            ];
+            for (name, wanted) in exact {
+                let found = column("maxwell_relaxation", name, &stage.scene(), &[tau, bend]);
+                let size = wanted.iter().fold(0.0_f64, |most, f| most.max(f.abs()));
+                for (found, wanted) in found.iter().zip(&wanted) {
+                    assert!(
+                        (found - wanted).abs() < 5e-4 * size,
+                        "{name} {tau} {bend}: {found} for {wanted}"
+                    );
+                }
             }
         }
+    }
+}
+
+#[test]
+fn a_dashpot_yields_to_any_motion_and_forgets_it_over_a_long_rest() {
+    // 5 mm within a sample of 10 s, which stretches the spring by 500 bends and more; then a rest.
+    let time: Vec<f64> = (0..30).map(|i| f64::from(i) * 10.0).collect();
+    let stage = Stage::new(time, |t| if t < 100.0 { (0.5 * t, 0.5) } else { (50.0, 0.0) }, None);
+    for (tau, bend) in [(0.05, 0.01), (50.0, 0.01), (1e6, 0.01)] {
+        let found = column("maxwell_relaxation", "one branch, Eyring dashpot", &stage.scene(), &[tau, bend]);
+        // What a stretch without end comes to in the last quarter of a step.
+        let most = bend * (2.0 * tau / 2.5 + 1.0).ln() + 3.0 * bend;
+        assert!(found.iter().all(|q| q.abs() <= most), "{tau}: {found:?}");
+        assert!(found[29] <= found[9], "{tau}: {found:?}");
     }
 }
