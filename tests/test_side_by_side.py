@@ -107,6 +107,7 @@ def everything(recording: Recording) -> dict[str, Any]:
             mre_core.SkippedWarning("a"),
             mre_core.CopyWarning("a"),
             mre_core.ExtrapolationWarning("a"),
+            mre_core.VelocityWarning("a"),
         ),
     ]
     return {type(one).__name__: one for one in objects}
