@@ -18,7 +18,7 @@ from .minimise import draw_seed
 from .model import Level, Model
 from .results import StopReason, SwarmResult
 from .slopes import left_by_fit, warn_of_velocities
-from .suitable import check_force
+from .suitable import check_force, samples_of
 from .swarms import afsa, mafsa, pso
 from .tested import largest_motion
 from .uncertainty import Uncertainty, uncertainty
@@ -183,7 +183,7 @@ def _with_uncertainty(run: SwarmResult, problem: Problem) -> SwarmResult:
         found = uncertainty(problem, run.x)
     except MreError:
         return run
-    samples = sum(stop - start for start, stop in (r.scored for r in problem.recordings))
+    samples = samples_of(problem.recordings)
     words = found.words
     if run.optimum is None:
         words += (

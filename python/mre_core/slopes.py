@@ -10,15 +10,14 @@ from contextlib import suppress
 from math import log
 from typing import NamedTuple
 
-import numpy as np
-
 from ._core import Problem, Recording, with_slopes
 from .checks import workers
 from .errors import ExtrapolationWarning, VelocityWarning, listed
 from .fits import exact
 from .grouping import group_by_current, labels
-from .model import Model, simulate
-from .suitable import check_force
+from .measure import measure_fit
+from .model import Model
+from .suitable import samples_of
 
 _PLAINLY = 10.0
 """Twice the logarithm of the likelihood, of white errors, by which derived velocities have to fit better."""
@@ -53,7 +52,7 @@ def derived_where_better(recordings: Sequence[Recording], left: Left, threads: i
         return Derived(list(recordings), ())
     anew = [given if other is None else other for given, other in zip(recordings, found, strict=True)]
     before, after = left(recordings), left(anew)
-    if not 0 < after < before or _samples(recordings) * log(before / after) < _PLAINLY:
+    if not 0 < after < before or samples_of(recordings) * log(before / after) < _PLAINLY:
         return Derived(list(recordings), ())
     names = labels([recording.name for recording in recordings])
     return Derived(anew, tuple(name for name, other in zip(names, found, strict=True) if other is not None))
@@ -90,7 +89,7 @@ def left_by_fit(
     """
 
     def squares(own: list[Recording]) -> float:
-        return exact(Problem(own, model, bounds), threads=threads).fitness * _samples(own)
+        return exact(Problem(own, model, bounds), threads=threads).fitness * samples_of(own)
 
     return sum(squares(own) for _, own in group_by_current(recordings))
 
@@ -99,13 +98,5 @@ def left_by(model: Model, recordings: Sequence[Recording]) -> float:
     """Sum of squared errors in N^2 of a model as it is."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ExtrapolationWarning)
-        forces = [simulate(model, recording)[slice(*recording.scored)] for recording in recordings]
-    return sum(
-        float(np.sum((check_force(recording) - force) ** 2))
-        for recording, force in zip(recordings, forces, strict=True)
-    )
-
-
-def _samples(recordings: Sequence[Recording]) -> int:
-    """Count the samples of all that are fitted."""
-    return sum(stop - start for start, stop in (recording.scored for recording in recordings))
+        fits = [measure_fit(model, recording) for recording in recordings]
+    return sum(fit.rms**2 * fit.samples for fit in fits)

@@ -66,10 +66,15 @@ def check_recordings(recordings: Sequence[Recording], parameters: int) -> None:
         )
     if not any(_has_cycle(_scored(recording)[0]) for recording in recordings):
         raise _wrong(recordings[0], "there is less than one cycle of motion", "at least one full cycle")
-    samples = sum(recording.scored[1] - recording.scored[0] for recording in recordings)
+    samples = samples_of(recordings)
     if samples < (least := max(_LEAST, _EACH * parameters)):
         problem = f"there are {samples} samples for {parameters} parameters"
         raise _wrong(recordings[0], problem, f"at least {least}")
+
+
+def samples_of(recordings: Sequence[Recording]) -> int:
+    """Count the samples that a fit counts."""
+    return sum(stop - start for start, stop in (recording.scored for recording in recordings))
 
 
 def check_force(recording: Recording) -> NDArray[np.float64]:
