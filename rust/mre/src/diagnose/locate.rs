@@ -219,7 +219,7 @@ fn in_state(null: &Null) -> Vec<Finding> {
     // Every hat in each band of velocities.
     let bands = [[-fast, fast], [0.0, fast], [-fast, 0.0], [-fast, -0.5 * fast], [0.5 * fast, fast]];
     let count = bands.len() * (STRETCHES + 1);
-    let Projection { gram, right, squares, .. } = null.project_as_they_are(count, |view, r| {
+    let Projection { gram, tame, squares, .. } = null.project_as_they_are(count, |view, r| {
         let scene = view.scene(r);
         (0..count)
             .map(|place| {
@@ -243,7 +243,7 @@ fn in_state(null: &Null) -> Vec<Finding> {
         .map(|i| {
             let (k, v) = (i / bands.len(), bands[i % bands.len()]);
             let x = [centre(k.saturating_sub(1)), centre((k + 1).min(STRETCHES))];
-            Finding { place: Place::State { x, v }, strength: right[i].abs() / gram[(i, i)].sqrt() }
+            Finding { place: Place::State { x, v }, strength: tame[i].abs() / gram[(i, i)].sqrt() }
         })
         .collect()
 }

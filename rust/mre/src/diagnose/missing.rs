@@ -78,7 +78,7 @@ pub(super) struct Projected {
 impl Projected {
     /// Columns that the projection leaves.
     pub(super) fn of(all: &Projection, chosen: &[usize]) -> Self {
-        let Projection { gram, right, bias, squares, strays } = all;
+        let Projection { gram, tame, bias, squares, strays, .. } = all;
         let kept: Vec<usize> =
             chosen.iter().copied().filter(|i| gram[(*i, *i)] > SMALLEST_SHARE * squares[*i]).collect();
         let scale: Vec<f64> = kept.iter().map(|i| 1.0 / gram[(*i, *i)].sqrt()).collect();
@@ -86,7 +86,7 @@ impl Projected {
             gram: DMatrix::from_fn(kept.len(), kept.len(), |a, b| {
                 gram[(kept[a], kept[b])] * scale[a] * scale[b]
             }),
-            right: DVector::from_fn(kept.len(), |a, _| right[kept[a]] * scale[a]),
+            right: DVector::from_fn(kept.len(), |a, _| tame[kept[a]] * scale[a]),
             bias: DVector::from_fn(kept.len(), |a, _| bias[kept[a]] * scale[a]),
             strays: strays.of(&kept, &scale),
         }

@@ -27,6 +27,7 @@ mod features;
 mod filters;
 mod firsts;
 mod gaps;
+mod heavy;
 mod held;
 mod hum;
 mod in_step;

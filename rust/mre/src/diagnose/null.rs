@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::heavy::Tame;
 use super::least_squares::Data;
 use super::noise::Noise;
 use super::normal::whitened;
@@ -25,6 +26,8 @@ pub(super) struct Null<'a> {
     scale: Vec<f64>,
     /// Products of the tangents with the residual.
     right: DVector<f64>,
+    /// The residual of a noise with heavy tails as it counts in tests.
+    tame: Option<Tame>,
     /// What the noise of the motions does to them.
     shaken: Vec<Shaken<'a>>,
     bias: DVector<f64>,
@@ -65,6 +68,7 @@ impl<'a> Null<'a> {
                 }
             }
         }
+        let tame = Tame::of(&point.recordings, &tangents, count);
         for (i, known) in assembly.known_of_coefficients().into_iter().enumerate() {
             gram[(i, i)] += known;
         }
@@ -88,7 +92,7 @@ impl<'a> Null<'a> {
         let squares: f64 = draws.clone().map(square).sum();
         let share = squares / (samples * draws.count()).max(1) as f64;
         let strays = Strays::new(strays, share);
-        Some(Self { assembly, data, point, tangents, factor, scale, right, shaken, bias, more, strays })
+        Some(Self { assembly, data, point, tangents, factor, scale, right, tame, shaken, bias, more, strays })
     }
 
     /// What draws of the noise of the motions do to the force.
@@ -155,6 +159,7 @@ impl<'a> Null<'a> {
         let mut gram = DMatrix::<f64>::zeros(count, count);
         let mut cross = DMatrix::<f64>::zeros(tangent_count, count);
         let mut right = DVector::<f64>::zeros(count);
+        let mut tame = DVector::<f64>::zeros(count);
         let mut bias = DVector::<f64>::zeros(count);
         let draws: Vec<&Change> = if shaken.is_empty() { Vec::new() } else { self.changes().collect() };
         let mut strays = DMatrix::<f64>::zeros(count, draws.len());
@@ -167,6 +172,9 @@ impl<'a> Null<'a> {
             let own: Vec<(usize, Vec<f64>)> = columns(&here, r).into_iter().map(|c| white(r, c)).collect();
             for (n, (i, z)) in own.iter().enumerate() {
                 right[*i] += dot(z, &local.residual);
+                if let Some(Tame { residuals, .. }) = &self.tame {
+                    tame[*i] += dot(z, &residuals[r]);
+                }
                 for (j, t) in &self.tangents[r] {
                     cross[(*j, *i)] += dot(t, z);
                 }
@@ -196,8 +204,10 @@ impl<'a> Null<'a> {
         };
         let bias = bias - of_tangents(&self.bias);
         let right = right - of_tangents(&self.right);
+        let counted = |own: &Tame| tame - of_tangents(&own.right);
+        let tame = self.tame.as_ref().map_or_else(|| right.clone(), counted);
         let strays = if draws.is_empty() { Strays::none(count) } else { self.strays.beside(&solved, strays) };
-        Projection { gram: gram - &solved * &scaled, right, bias, squares, strays }
+        Projection { gram: gram - &solved * &scaled, right, tame, bias, squares, strays }
     }
 
     /// The recordings as they are.

@@ -13,6 +13,8 @@ pub(super) struct Projection {
     pub(super) gram: DMatrix<f64>,
     /// Products with the residual.
     pub(super) right: DVector<f64>,
+    /// The same as they count in tests.
+    pub(super) tame: DVector<f64>,
     /// What the noise of the motions is expected to give of them.
     pub(super) bias: DVector<f64>,
     /// Squares before the projection.
@@ -27,7 +29,7 @@ impl Projection {
         let bias = self.bias[i];
         let size = self.gram[(i, i)].sqrt();
         let scatter = self.strays.of(&[i], &[1.0 / size]).covariance()[(0, 0)].sqrt();
-        (self.right[i] - bias * unsure(self.right[i] / bias)) / (size * scatter)
+        (self.tame[i] - bias * unsure(self.tame[i] / bias)) / (size * scatter)
     }
 }
 

@@ -69,7 +69,8 @@ impl Null<'_> {
             }
             columns
         };
-        let Projection { gram, right, bias, squares, strays } = self.project(width * starts.len(), of_law);
+        let Projection { gram, right, tame, bias, squares, strays } =
+            self.project(width * starts.len(), of_law);
         let samples: usize = self.point.recordings.iter().map(|l| l.force.len()).sum();
         let block = |s: usize| {
             let g = gram.view((s * width, s * width), (width, width)).into_owned();
@@ -90,14 +91,16 @@ impl Null<'_> {
             .collect();
         let visible = blocks.iter().map(|b| b.visible).fold(0.0, f64::max);
         let part = |v: &DVector<f64>, s: usize| v.rows(s * width, width).into_owned();
-        let gain = |s: usize| {
+        let gain = |of: &DVector<f64>, s: usize| {
             let places: Vec<usize> = (s * width..(s + 1) * width).collect();
             let scattered = blocks[s].scattered(&strays.of(&places, &vec![1.0; width]));
-            scattered.least_gain(&part(&right, s), &part(&bias, s))
+            scattered.least_gain(&part(of, s), &part(&bias, s))
         };
-        let gains: Vec<f64> = (0..starts.len()).map(gain).collect();
-        let (best, gain) = gains.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
-        let smallest = (0..starts.len()).map(|s| blocks[s].tail(gains[s] / CAUTION)).fold(1.0, f64::min);
+        let gains: Vec<f64> = (0..starts.len()).map(|s| gain(&right, s)).collect();
+        let (best, gain_of_best) = gains.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let counted = |s: usize| if tame == right { gains[s] } else { gain(&tame, s) };
+        let tail = |s: usize| blocks[s].tail(counted(s) / CAUTION);
+        let smallest = (0..starts.len()).map(tail).fold(1.0, f64::min);
         let correction = correction(&gram, &blocks, width, seed);
         let trace = (0..raw.len())
             .filter(|i| raw[*i] > 0.0)
@@ -113,7 +116,7 @@ impl Null<'_> {
         Some(Score {
             effect,
             start: starts[best].clone(),
-            gain,
+            gain: gain_of_best,
             freedom: width,
             p_value: (correction * smallest).min(1.0),
             visible,

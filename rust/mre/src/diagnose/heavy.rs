@@ -1,0 +1,101 @@
+//! Noise of heavy tails: tests expect a normal one, and a feature of few samples would take a single wild sample for a
+//! mismatch. Where the samples of all recordings show such tails, none of them counts for much in a test (Huber 1964,
+//! <https://doi.org/10.1214/aoms/1177703732>). Fits keep them as they are: least squares compares laws that are sharp.
+
+use nalgebra::DVector;
+
+use super::point::Local;
+use crate::kernel::filter::dot;
+
+/// Standard deviations beyond which a sample is rare in a normal noise.
+const RARE: f64 = 4.0;
+/// Share of its samples that are beyond.
+const OF_NORMAL: f64 = 6.3e-5;
+/// Tails are heavy where so many times as many are,
+const TIMES: f64 = 10.0;
+/// and so many more: a few are the moments of a device.
+const FEW: f64 = 8.0;
+/// Standard deviations that a sample of heavy noise counts at most.
+const MOST: f64 = 3.0;
+
+/// Whitened residuals of heavy tails as they count in tests.
+pub(super) struct Tame {
+    /// By recording.
+    pub(super) residuals: Vec<Vec<f64>>,
+    /// Their products with the tangents of the model.
+    pub(super) right: DVector<f64>,
+}
+
+impl Tame {
+    /// Of recordings at a point, beside so many tangents; `None` where the tails are not heavy.
+    pub(super) fn of(
+        recordings: &[Local],
+        tangents: &[Vec<(usize, Vec<f64>)>],
+        count: usize,
+    ) -> Option<Self> {
+        let residuals = tame(recordings.iter().map(|local| local.residual.as_slice()))?;
+        let mut right = DVector::<f64>::zeros(count);
+        for (columns, residual) in tangents.iter().zip(&residuals) {
+            for (i, column) in columns {
+                right[*i] += dot(column, residual);
+            }
+        }
+        Some(Self { residuals, right })
+    }
+}
+
+/// Residuals of which no sample counts for much, by recording; `None` where the tails are not heavy.
+fn tame<'r>(residuals: impl Iterator<Item = &'r [f64]> + Clone) -> Option<Vec<Vec<f64>>> {
+    let samples: usize = residuals.clone().map(<[f64]>::len).sum();
+    let squares: f64 = residuals.clone().flatten().map(|e| e * e).sum();
+    let deviation = (squares / samples.max(1) as f64).sqrt();
+    let rare = residuals.clone().flatten().filter(|e| e.abs() > RARE * deviation).count() as f64;
+    let heavy = rare > FEW + TIMES * OF_NORMAL * samples as f64;
+    let most = MOST * deviation;
+    heavy.then(|| residuals.map(|own| own.iter().map(|e| e.clamp(-most, most)).collect()).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use rand_chacha::ChaCha8Rng;
+    use rand_core::SeedableRng;
+
+    use super::*;
+    use crate::deviate::normal;
+
+    fn noise(seed: u64) -> Vec<f64> {
+        let mut stream = ChaCha8Rng::seed_from_u64(seed);
+        (0..10_000).map(|_| normal(&mut stream)).collect()
+    }
+
+    #[test]
+    fn normal_noise_is_left_and_so_are_a_few_moments_of_a_device() {
+        let mut own = noise(1);
+        for at in [100, 2_000, 7_000] {
+            own[at] = 20.0;
+        }
+        assert_eq!(tame([own.as_slice(), &noise(2)].into_iter()), None);
+        assert_eq!(tame(std::iter::empty()), None);
+    }
+
+    #[test]
+    fn wild_samples_count_for_little() {
+        // A normal variable over the root of the mean of three squares: Student's.
+        let parts: Vec<Vec<f64>> = (1..=4).map(noise).collect();
+        let student = |i: usize| {
+            let squares: f64 = parts[1..].iter().map(|part| part[i] * part[i]).sum();
+            parts[0][i] / (squares / 3.0).sqrt()
+        };
+        let own: Vec<f64> = (0..10_000).map(student).collect();
+        let tamed = tame(std::iter::once(own.as_slice())).unwrap_or_default();
+        let deviation = (own.iter().map(|e| e * e).sum::<f64>() / 10_000.0).sqrt();
+        let beyond = tamed[0].iter().zip(&own).filter(|(tame, own)| tame != own);
+        let share = beyond.clone().count() as f64 / 10_000.0;
+        assert!((0.005..0.03).contains(&share), "{share}");
+        assert!(
+            beyond
+                .clone()
+                .all(|(tame, own)| (tame.abs() - MOST * deviation).abs() < 1e-12 && tame * own > 0.0)
+        );
+    }
+}
