@@ -105,3 +105,20 @@ def test_what_smoothing_does_to_a_quick_release_is_no_missing_physics(seed: int)
         recordings.append(Recording(t, seen, force + 0.004 * np.std(force) * noise, name=f"release {k}"))
     found = diagnose(recordings, base="kelvin_voigt", seed=1)
     assert found.verdict == "adequate", found
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_what_a_drive_distorts_below_the_noise_is_motion(seed: int) -> None:
+    """A third harmonic of less than a thousandth, which a stiff device shows and smoothing could take off."""
+    rng = np.random.default_rng([101, seed])
+    recordings = []
+    for frequency, size in ((7.19, 1.7), (1.66, 2.3), (3.4, 1.0), (2.1, 2.8)):
+        t = np.arange(5000) / 200
+        turn = 2 * np.pi * frequency
+        x = size * (np.sin(turn * t) + 7e-4 * np.sin(3 * turn * t + 0.7))
+        v = size * turn * (np.cos(turn * t) + 21e-4 * np.cos(3 * turn * t + 0.7))
+        force = 237 * x + 277 * np.sinh(0.54 * x) + 3.9 * v + 1.8 * rng.normal(size=t.size)
+        seen = x + 0.003 * rng.normal(size=t.size)
+        recordings.append(Recording(t, seen, force, name=f"{frequency} Hz"))
+    found = diagnose(recordings, base="sinh", seed=1)
+    assert found.verdict == "adequate", found

@@ -6,6 +6,7 @@
 //! octave by octave what the next window takes off is compared with what noise would leave there. Where it rests, no polynomial
 //! of many terms can be as calm as the mean: what is left beside that is compared in the same way.
 
+use super::distortion::Distortion;
 use super::octaves::{Motion, Noisy, Smooth, each, less, low_passed};
 use super::rest::at_rest;
 use super::step;
@@ -38,6 +39,8 @@ pub struct Calming {
     shares: Vec<Vec<f64>>,
     /// The same of what is beside the mean; empty where none was looked for.
     rest: Vec<f64>,
+    /// What is motion of all that is taken off.
+    distortion: Option<Distortion>,
 }
 
 impl Calming {
@@ -62,15 +65,25 @@ impl Calming {
     fn from(narrow: &Smooth, noisy: &Noisy) -> Self {
         let (noise, window) = (noisy.variance.sqrt(), narrow.window);
         let Some(wide) = noisy.smooth(window.wider(1)) else {
-            return Self { noise, window, cut_off: None, shares: Vec::new(), rest: Vec::new() };
+            let (shares, rest) = (Vec::new(), Vec::new());
+            return Self { noise, window, cut_off: None, shares, rest, distortion: None };
         };
         let (best, cut_off) = noisy.low_passed(narrow, &wide);
         let (shares, left) = noisy.shares_of_octaves(best, wide);
-        let octaves = Self { noise, window, cut_off, shares, rest: Vec::new() };
+        let octaves = Self { noise, window, cut_off, shares, rest: Vec::new(), distortion: None };
         let calm = octaves.over(noisy.time, noisy.measured).displacement;
         let left: Vec<f64> = left.iter().map(|left| noisy.variance * left).collect();
         let rest = at_rest(&calm, &left, window.half, octaves.shares.len());
-        Self { rest, ..octaves }
+        let calming = Self { rest, ..octaves };
+        let Calm { displacement, velocity, .. } = calming.over(noisy.time, noisy.measured);
+        let taken = |all: &Motion| {
+            let Calm { displacement, velocity, .. } = calming.over(noisy.time, &all[0]);
+            less(all, &[displacement, velocity])
+        };
+        let off = each(noisy.measured, &displacement, |all, calm| all - calm);
+        let distortion = Distortion::of(&[displacement, velocity], noisy.step, taken);
+        let distortion = distortion.filter(|own| own.stands_out(&off, noisy.variance));
+        Self { distortion, ..calming }
     }
 
     /// A displacement in mm less its mean around each sample.
@@ -113,7 +126,13 @@ impl Calming {
             let noise = beside.map(|part| each(&part, &self.rest, |part, share| share * part));
             taken = [0, 1].map(|k| each(&taken[k], &noise[k], |taken, noise| taken + noise));
         }
-        let [displacement, velocity] = less(&calm, &taken);
+        let mut motion = less(&calm, &taken);
+        if let Some(distortion) = &self.distortion {
+            let all = each(displacement, &motion[0], |all, calm| all - calm);
+            let part = distortion.part_of(&all);
+            motion = [0, 1].map(|k| each(&motion[k], &part[k], |calm, part| calm + part));
+        }
+        let [displacement, velocity] = motion;
         let noisy = if self.shares.is_empty() { Vec::new() } else { [vec![taken], mixed].concat() };
         Calm { displacement, velocity, noisy }
     }

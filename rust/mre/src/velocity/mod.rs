@@ -15,6 +15,7 @@ mod calming;
 mod corners;
 mod cuts;
 mod differences;
+mod distortion;
 mod kinks;
 mod left;
 mod local;
