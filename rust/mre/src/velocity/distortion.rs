@@ -19,6 +19,8 @@ const SAMPLES_EACH: usize = 50;
 const SEEN: f64 = 30.0;
 /// What is motion beyond this share is none that noise hides.
 const MOTION: f64 = 0.5;
+/// Squared mean square over mean fourth power of what is all over a recording: two thirds for a sine.
+const EVERYWHERE: f64 = 0.2;
 /// Keeps the normal equations solvable, scaled to ones on the diagonal: in a sine some of them are one.
 const RIDGE: f64 = 1e-9;
 
@@ -62,12 +64,15 @@ impl Distortion {
         Some(Self { factor: gram.cholesky()?, columns })
     }
 
-    /// True where what smoothing took off is mostly noise of a variance, and has more of a distortion than that would.
+    /// True where what smoothing took off is mostly noise of a variance, and has more of a distortion than that would, all
+    /// over: where a motion has bends, they are what it lost.
     pub(super) fn stands_out(&self, taken: &[f64], variance: f64) -> bool {
         let products = self.products(taken);
         let explained = products.dot(&self.factor.solve(&products));
         let part = &self.part_of(taken)[0];
-        explained < MOTION * dot(taken, taken) && dot(part, part) > SEEN * variance
+        let (square, fourth) = (dot(part, part), part.iter().map(|e| e.powi(4)).sum::<f64>());
+        let everywhere = square.powi(2) > EVERYWHERE * fourth * part.len() as f64;
+        explained < MOTION * dot(taken, taken) && square > SEEN * variance && everywhere
     }
 
     /// The part of what smoothing took off a displacement in mm that follows the motion, mm, and its slope, mm/s.
