@@ -117,6 +117,18 @@ def thinning(x: Array, v: Array, h: float) -> Array:
     return force
 
 
+def slipping(x: Array, v: Array, h: float) -> Array:
+    """Layers that slip at 0.2 to 5 mm, the first of them the stiffest."""
+    force: Array = 0.4 * v + 8 * x + 10 * np.sinh(0.3 * x)
+    for slip in np.geomspace(0.2, 5, 14):
+        rest, pulled = 0.0, np.zeros_like(x)
+        for i, place in enumerate(x):
+            rest = min(max(rest, place - slip), place + slip)
+            pulled[i] = place - rest
+        force += 0.6 * slip**-0.5 * pulled
+    return force
+
+
 def campaign(force: Callable[[Array, Array, float], Array]) -> list[Recording]:
     """Sines from rest, 10 s each."""
     h = 1 / (RATE * FINE)
@@ -144,6 +156,7 @@ def campaign(force: Callable[[Array, Array, float], Array]) -> list[Recording]:
         (two_stiffnesses, "asymmetric_stiffness", "two stiffnesses, rounded"),
         (run_apart, "time_delay", "clocks that run apart"),
         (thinning, "quadratic_damping", "Carreau"),
+        (slipping, "hysteresis", "Iwan, power distribution between two yields"),
     ],
 )
 def test_the_law_is_named(force: Callable[[Array, Array, float], Array], effect: str, law: str) -> None:

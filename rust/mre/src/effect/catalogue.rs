@@ -34,6 +34,7 @@ use super::quadratic_damping::QuadraticDamping;
 use super::remanence::Remanence;
 use super::rig::Rig;
 use super::slipping::Slipping;
+use super::spread_yields::SpreadYields;
 use super::stiffness_jump::StiffnessJump;
 use super::stribeck::{Fall, Stribeck};
 use super::thermal::Thermal;
@@ -79,6 +80,7 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &Hysteresis::Jenkins,
     &Hysteresis::Iwan,
     &Hysteresis::PowerIwan,
+    &SpreadYields,
     &Hysteresis::Play,
     &Hysteresis::Plays,
     &WithCurrent {

@@ -49,6 +49,7 @@ mod rig;
 mod scene;
 mod slipping;
 mod smooth_lag;
+mod spread_yields;
 mod stiffness_jump;
 mod stribeck;
 #[cfg(test)]

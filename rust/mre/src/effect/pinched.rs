@@ -6,7 +6,7 @@
 //! | rho | inverse of the yield displacement | 1/mm | yield from 5 % to 300 % of the largest stroke |
 //! | `zeta_1` | depth of the slip | - | 0.1 to 0.97 |
 //! | `zeta_2` | width of the slip, share of the yield force | - | 0.1 to 0.8 |
-//! | q | force at which it slips most, share of the yield force, against the motion before it is reversed | - | 0 to 0.5 |
+//! | q | force at which it slips most, share of the yield force, against the motion before it is reversed | - | 0 to 0.3 |
 //! | s | share of the force that is lost in the middle position | - | 0.1 to 0.97 |
 //! | `w_x` | half width of the middle | mm | 5 % to 60 % of the largest stroke |
 //!
@@ -85,7 +85,7 @@ impl Effect for Pinched {
                     rho,
                     ideal_above(within("zeta_1", "", 0.1, 0.97)),
                     within("zeta_2", "", 0.1, 0.8),
-                    ideal_below(within("q", "", 0.0, 0.5)),
+                    ideal_below(within("q", "", 0.0, 0.3)),
                 ]
             }
             Self::ByPlace => {

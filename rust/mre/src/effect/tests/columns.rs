@@ -156,6 +156,19 @@ fn a_uniform_iwan_body_loads_along_a_parabola() {
 }
 
 #[test]
+fn elements_that_yield_between_two_displacements_load_by_their_distribution() {
+    let stage = Stage::new(grid(1e-3, 1.2), |t| (t, 1.0), None);
+    let (h, name) = (0.04_f64, "Iwan, power distribution between two yields");
+    let f = column("hysteresis", name, &stage.scene(), &[1.0, h, -0.5]);
+    let below = |r: f64| (h.powf(-0.5) - r.powf(-0.5)) / (h.powf(-0.5) - 1.0);
+    for i in [20, 100, 400, 900, 1100] {
+        let (x, end) = (1e-3 * i as f64, (1e-3 * i as f64).clamp(h, 1.0));
+        let yielded = (end.sqrt() - h.sqrt()) / (h.powf(-0.5) - 1.0);
+        assert!((f[i] - yielded - x * (1.0 - below(end))).abs() < 2e-3, "{i}: {}", f[i]);
+    }
+}
+
+#[test]
 fn a_contact_follows_a_power_of_its_depth_and_may_dissipate_by_it() {
     let stage = Stage::sine(3.0, 1.0, 2.0);
     let (x, v) = (stage.recording.displacement(), stage.recording.velocity());
