@@ -129,6 +129,16 @@ def slipping(x: Array, v: Array, h: float) -> Array:
     return force
 
 
+def bushing(x: Array, v: Array, h: float) -> Array:
+    """A guide whose friction of 6 N comes to its size slowly: Dahl's law with the exponent two."""
+    z = np.zeros_like(x)
+    for i, moved in enumerate(np.diff(x)):
+        side = np.sign(moved)
+        z[i + 1] = side * (1 - 1 / (1 / (1 - z[i] * side) + abs(moved) / 0.08)) if moved else z[i]
+    force: Array = 0.4 * v + 8 * x + 10 * np.sinh(0.3 * x) + 6 * z
+    return force
+
+
 def campaign(force: Callable[[Array, Array, float], Array]) -> list[Recording]:
     """Sines from rest, 10 s each."""
     h = 1 / (RATE * FINE)
@@ -156,6 +166,7 @@ def campaign(force: Callable[[Array, Array, float], Array]) -> list[Recording]:
         (two_stiffnesses, "asymmetric_stiffness", "two stiffnesses, rounded"),
         (run_apart, "time_delay", "clocks that run apart"),
         (thinning, "quadratic_damping", "Carreau"),
+        (bushing, "coulomb_friction", "Dahl, any exponent"),
         (slipping, "hysteresis", "Iwan, power distribution between two yields"),
     ],
 )

@@ -61,6 +61,7 @@ pub const CATALOGUE: &[&dyn Effect] = &[
         equation: "F_a = c_a(I) D^a x, c_a affine in I",
     },
     &Coulomb::Dahl,
+    &Coulomb::DahlOf,
     &Coulomb::Slider,
     &Coulomb::Smoothed,
     &Coulomb::Rounded,

@@ -3,6 +3,9 @@
 use super::Scene;
 pub(super) use crate::kernel::relaxation::lag;
 
+/// Exponents that differ by less are one.
+const SAME: f64 = 1e-6;
+
 /// Play of half width `r`: follows the input once the slack is taken up.
 pub(super) fn play(input: &[f64], r: f64) -> Vec<f64> {
     play_from(input[0], input, r)
@@ -30,6 +33,23 @@ pub(super) fn dahl(scene: &Scene, z_y: f64) -> Vec<f64> {
     along(scene, |z, dx| {
         let side = sign(dx);
         side + (z - side) * (-dx.abs() / z_y).exp()
+    })
+}
+
+/// The same with an exponent, `z' = v (1 - z sgn v)^gamma / z_y`: above one it comes to its end slowly, below it sharply.
+pub(super) fn dahl_of(scene: &Scene, z_y: f64, gamma: f64) -> Vec<f64> {
+    let power = 1.0 - gamma;
+    // In the power the solution of the law is a line.
+    let reached = |left: f64, moved: f64| {
+        if power.abs() < SAME {
+            left * (-moved).exp()
+        } else {
+            (left.powf(power) - power * moved).max(0.0).powf(1.0 / power)
+        }
+    };
+    along(scene, |z, dx| {
+        let side = sign(dx);
+        if side == 0.0 { z } else { side * (1.0 - reached(1.0 - z * side, dx.abs() / z_y)) }
     })
 }
 

@@ -43,6 +43,30 @@ fn a_sign_is_rounded_as_its_closed_forms() {
 }
 
 #[test]
+fn dahl_of_any_exponent_slides_as_its_closed_form() {
+    let stage = Stage::new(grid(1e-3, 1.0), |t| (t, 1.0), None);
+    let of = |gamma: f64| column("coulomb_friction", "Dahl, any exponent", &stage.scene(), &[0.1, gamma]);
+    let (slow, sharp) = (of(2.0), of(0.5));
+    for (i, x) in stage.recording.displacement().iter().enumerate() {
+        close(slow[i], x / (0.1 + x), 1e-9);
+        close(sharp[i], 1.0 - (1.0 - x / 0.2).max(0.0).powi(2), 1e-9);
+    }
+    let back = Stage::sine(3.0, 1.0, 2.0);
+    let one = column("coulomb_friction", "Dahl, any exponent", &back.scene(), &[0.1, 1.0]);
+    for (a, b) in one.iter().zip(column("coulomb_friction", "Dahl", &back.scene(), &[0.1])) {
+        close(*a, b, 1e-9);
+    }
+}
+
+#[test]
+fn a_held_element_of_dahl_keeps_its_force() {
+    let moved = |t: f64| if t < 0.5 { (t, 1.0) } else { (0.5, 0.0) };
+    let stage = Stage::new(grid(1e-3, 1.0), moved, None);
+    let z = column("coulomb_friction", "Dahl, any exponent", &stage.scene(), &[0.1, 2.0]);
+    assert!(z[990] > 0.8 && (z[990] - z[510]).abs() < 1e-12, "{} {}", z[510], z[990]);
+}
+
+#[test]
 fn bristles_without_an_excess_are_the_element_of_dahl() {
     let stage = Stage::sine(2.0, 1.0, 3.0);
     let plain = column("coulomb_friction", "Dahl", &stage.scene(), &[0.1]);
