@@ -1,9 +1,11 @@
 """Sentences about a diagnosis."""
 
+from dataclasses import replace
 from typing import Any
 
 import pytest
 from mre_core import words
+from rig import diagnosed
 
 FIT = {"held_out_rms_before": 3.2, "held_out_rms_after": 1.02, "noise_rms": 1.0}
 
@@ -31,6 +33,15 @@ def test_a_rise_is_no_fall() -> None:
     worse = FIT | {"held_out_rms_after": 4.0}
     assert "rises from 3.2 N to 4 N" in words.verdict("missing_physics", "sinh", ["inertia"], worse)
     assert words.verdict("adequate", "simulated", [], FIT).startswith("The given simulation explains")
+
+
+def test_a_name_that_worsens_held_out_data_is_the_nearest_one() -> None:
+    found = diagnosed(("coulomb_friction",), ("sign",), "kelvin_voigt", "white", 2.0, 5, 4000)
+    assert found.verdict == "missing_physics" and found.effects
+    hint = replace(found, verdict="partly_explained", p_values={**found.p_values, "rest": 0.5})
+    assert "comes nearest to" in str(hint)
+    assert words.WORSE in str(hint)
+    assert words.WORSE not in str(replace(hint, p_values={**found.p_values, "rest": 0.0}))
 
 
 HARMONIC = {"kind": "harmonic", "recording": "a", "harmonic": 1, "drive_hz": 3.0, "in_phase": 0.99}

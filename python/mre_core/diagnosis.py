@@ -158,7 +158,8 @@ class Diagnosis:
     def __str__(self) -> str:
         named = [e.id for e in self.effects]
         ends = {e.id: e.at_the_end for e in self.effects if e.at_the_end}
-        whole = bool(ends) and (self.p_values.get("rest") or 0.0) > self.false_alarm
+        nothing_left = (self.p_values.get("rest") or 0.0) > self.false_alarm
+        whole = self.verdict == "partly_explained" and nothing_left
         inexact = self.verdict == "missing_physics" and any(e.form == "approximate" for e in self.effects)
         said = "nearest" if whole else "inexact" if inexact else self.verdict
         if said is None or not isfinite(self.fit.held_out_rms_after):
@@ -166,6 +167,8 @@ class Diagnosis:
         told = [words.verdict(said, self.base, named, asdict(self.fit))]
         if ends:
             told.append(words.at_the_end(ends))
+        elif whole:
+            told.append(words.WORSE)
         if self.verdict in ("adequate", "missing_physics"):
             told.append(words.noise(self.p_values.get("even")))
         if self.refitted is not None:

@@ -37,6 +37,11 @@ def verdict(kind: str, base: str, effects: Sequence[str], fit: Mapping[str, Any]
     }[kind].replace("with it", "with them" if len(effects) > 1 else "with it")
 
 
+WORSE = (
+    "That is no better on data that took no part: the name is the nearest one of the catalogue, and what is"
+    " there may be another effect."
+)
+
 BETWEEN = (
     " A change whose moment may lie between two recordings may be one of the mounting or of a calibration."
 )

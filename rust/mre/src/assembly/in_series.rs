@@ -3,8 +3,9 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::columns::Columns;
-use crate::effect::{Flexibility, slope};
+use crate::effect::Flexibility;
 use crate::kernel::relaxation::lag;
+use crate::kernel::slope::slope;
 use crate::recording::Recording;
 
 /// The tangent of a device is stiffer than the secant, most of all where its motion turns.

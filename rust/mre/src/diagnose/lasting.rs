@@ -22,7 +22,7 @@ pub(super) fn lasting(null: &Null) -> Vec<Finding> {
     }
     // Of each recording: the force from a moment on, the whole force first.
     let count = recordings * PARTS;
-    let Projection { gram, tame, squares, .. } = null.project_as_they_are(count, |view, r| {
+    let projected = null.project_as_they_are(count, |view, r| {
         let scene = view.scene(r);
         let n = scene.len();
         let from = |part: usize| {
@@ -31,15 +31,17 @@ pub(super) fn lasting(null: &Null) -> Vec<Finding> {
         };
         (0..PARTS).map(|part| (r * PARTS + part, from(part))).collect()
     });
+    let right = DVector::from_fn(count, |i, _| projected.counted(i));
+    let Projection { gram, squares, .. } = projected;
     let squares = DVector::from(squares);
     let mut found = Vec::new();
     for r in 0..recordings - 1 {
         let mut later = DVector::<f64>::zeros(count);
         (r + 1..recordings).for_each(|s| later[s * PARTS] = 1.0);
-        let (bent, own, shown) = (&gram * &later, later.dot(&tame), later.dot(&squares));
+        let (bent, own, shown) = (&gram * &later, later.dot(&right), later.dot(&squares));
         let strength = |i: Option<usize>| {
             let (cross, itself, square, score) =
-                i.map_or((0.0, 0.0, 0.0, 0.0), |i| (bent[i], gram[(i, i)], squares[i], tame[i]));
+                i.map_or((0.0, 0.0, 0.0, 0.0), |i| (bent[i], gram[(i, i)], squares[i], right[i]));
             let left = itself + 2.0 * cross + later.dot(&bent);
             if left > SMALLEST_SHARE * (square + shown) { (score + own) / left.sqrt() } else { 0.0 }
         };

@@ -219,7 +219,7 @@ fn in_state(null: &Null) -> Vec<Finding> {
     // Every hat in each band of velocities.
     let bands = [[-fast, fast], [0.0, fast], [-fast, 0.0], [-fast, -0.5 * fast], [0.5 * fast, fast]];
     let count = bands.len() * (STRETCHES + 1);
-    let Projection { gram, tame, squares, .. } = null.project_as_they_are(count, |view, r| {
+    let projected = null.project_as_they_are(count, |view, r| {
         let scene = view.scene(r);
         (0..count)
             .map(|place| {
@@ -238,12 +238,16 @@ fn in_state(null: &Null) -> Vec<Finding> {
             })
             .collect()
     });
+    let Projection { gram, squares, .. } = &projected;
     (0..count)
         .filter(|i| gram[(*i, *i)] > SMALLEST_SHARE * squares[*i] && squares[*i] > 0.0)
         .map(|i| {
             let (k, v) = (i / bands.len(), bands[i % bands.len()]);
             let x = [centre(k.saturating_sub(1)), centre((k + 1).min(STRETCHES))];
-            Finding { place: Place::State { x, v }, strength: tame[i].abs() / gram[(i, i)].sqrt() }
+            Finding {
+                place: Place::State { x, v },
+                strength: projected.counted(i).abs() / gram[(i, i)].sqrt(),
+            }
         })
         .collect()
 }

@@ -71,6 +71,7 @@ impl Mismatch {
 pub(super) struct Projected {
     gram: DMatrix<f64>,
     right: DVector<f64>,
+    tame: DVector<f64>,
     bias: DVector<f64>,
     strays: Strays,
 }
@@ -78,16 +79,18 @@ pub(super) struct Projected {
 impl Projected {
     /// Columns that the projection leaves.
     pub(super) fn of(all: &Projection, chosen: &[usize]) -> Self {
-        let Projection { gram, tame, bias, squares, strays, .. } = all;
+        let Projection { gram, right, tame, bias, squares, strays } = all;
         let kept: Vec<usize> =
             chosen.iter().copied().filter(|i| gram[(*i, *i)] > SMALLEST_SHARE * squares[*i]).collect();
         let scale: Vec<f64> = kept.iter().map(|i| 1.0 / gram[(*i, *i)].sqrt()).collect();
+        let of = |products: &DVector<f64>| DVector::from_fn(kept.len(), |a, _| products[kept[a]] * scale[a]);
         Self {
             gram: DMatrix::from_fn(kept.len(), kept.len(), |a, b| {
                 gram[(kept[a], kept[b])] * scale[a] * scale[b]
             }),
-            right: DVector::from_fn(kept.len(), |a, _| tame[kept[a]] * scale[a]),
-            bias: DVector::from_fn(kept.len(), |a, _| bias[kept[a]] * scale[a]),
+            right: of(right),
+            tame: of(tame),
+            bias: of(bias),
             strays: strays.of(&kept, &scale),
         }
     }
@@ -106,9 +109,16 @@ impl Projected {
         let covariance = self.strays.combined(&along).covariance();
         let Some(factor) = covariance.cholesky() else { return Mismatch::NONE };
         let even = |product: &DVector<f64>| factor.l().solve_lower_triangular(&(&along * product));
-        let (Some(right), Some(bias)) = (even(&self.right), even(&self.bias)) else { return Mismatch::NONE };
-        let further = unsure(right.dot(&bias) / bias.norm_squared());
-        Mismatch::new((&right - &bias * further).norm_squared(), right.len())
+        let Some(bias) = even(&self.bias) else { return Mismatch::NONE };
+        let gain = |products: &DVector<f64>| {
+            let right = even(products)?;
+            let further = unsure(right.dot(&bias) / bias.norm_squared());
+            Some((&right - &bias * further).norm_squared())
+        };
+        let (Some(as_they_are), Some(tame)) = (gain(&self.right), gain(&self.tame)) else {
+            return Mismatch::NONE;
+        };
+        Mismatch::new(as_they_are.min(tame), kept.len())
     }
 }
 

@@ -26,7 +26,7 @@ pub(super) struct Null<'a> {
     scale: Vec<f64>,
     /// Products of the tangents with the residual.
     right: DVector<f64>,
-    /// The residual of a noise with heavy tails as it counts in tests.
+    /// The residual of a noise with heavy tails, winsorised.
     tame: Option<Tame>,
     /// What the noise of the motions does to them.
     shaken: Vec<Shaken<'a>>,
@@ -68,7 +68,9 @@ impl<'a> Null<'a> {
                 }
             }
         }
-        let tame = Tame::of(&point.recordings, &tangents, count);
+        // What hides the noise is no noise.
+        let known = !data.noise.hidden();
+        let tame = known.then(|| Tame::of(&point.recordings, &tangents, count)).flatten();
         for (i, known) in assembly.known_of_coefficients().into_iter().enumerate() {
             gram[(i, i)] += known;
         }
@@ -108,6 +110,11 @@ impl<'a> Null<'a> {
     /// True where the search was broken off.
     pub(super) fn broken_off(&self) -> bool {
         self.data.monitor.broken_off()
+    }
+
+    /// True where the noise has wild samples.
+    pub(super) fn has_heavy_tails(&self) -> bool {
+        self.tame.is_some()
     }
 
     /// What the model is fitted to.

@@ -13,6 +13,10 @@ use crate::effect::Flexibility;
 const LAWS_EACH: usize = 2;
 /// A law whose score is below this share of the best is not looked at further.
 const PROMISING: f64 = 0.1;
+/// Laws that are as strong by chance more often than this are not looked at; where one is seen plainly, with a chance
+/// below this, more often than the second.
+const BY_CHANCE: [f64; 2] = [0.5, 0.05];
+const PLAIN: f64 = 1e-6;
 /// What gives way in series is looked at where one of its laws has a smaller p-value.
 const SEEN: f64 = 1e-3;
 /// A law that takes off less than this share of the best, the model's tangents held, is not fitted jointly.
@@ -21,12 +25,13 @@ const CLOSE: f64 = 0.4;
 /// The laws that are worth a joint fit, strongest first: a few of each effect, so that the many laws of one do
 /// not crowd out the others.
 pub(super) fn promising<'s>(null: &Null, scores: &'s [Score], most: usize) -> Vec<Held<'s>> {
-    let best = scores.iter().map(|s| s.gain).fold(0.0, f64::max);
-    let mut refined: Vec<Held> = scores
-        .par_iter()
-        .filter(|s| s.gain > 0.0 && s.p_value < 0.5 && s.gain >= PROMISING * best)
-        .map(|s| null.held(s))
-        .collect();
+    // Where something is plainly seen, what may be chance is a wild sample's, however much it would take off.
+    let plainly = null.has_heavy_tails() && scores.iter().any(|s| s.p_value < PLAIN);
+    let chance = if plainly { BY_CHANCE[1] } else { BY_CHANCE[0] };
+    let seen = |s: &&Score| s.gain > 0.0 && s.p_value < chance;
+    let best = scores.iter().filter(seen).map(|s| s.gain).fold(0.0, f64::max);
+    let mut refined: Vec<Held> =
+        scores.par_iter().filter(|s| seen(s) && s.gain >= PROMISING * best).map(|s| null.held(s)).collect();
     let best = refined.iter().map(|held| held.gain).fold(0.0, f64::max);
     // What changes the motion or the force acts on the model as it will be, not as it is: where much is missing, its
     // direction tells more than its size beside the tangents.

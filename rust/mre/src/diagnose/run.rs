@@ -78,6 +78,9 @@ pub fn run<'a>(
     let after = proofs.as_ref().map(|p| &p.1);
     let effects = effects(&search, &named, judged, after, &mut doubt);
     let verdict = evidence.beside_rivals(verdict, effects.iter().any(|effect| !effect.rivals.is_empty()));
+    let proved =
+        |(before, after): &(Proof, Proof)| verdict.beside_proofs(before.held_out_rms, after.held_out_rms);
+    let verdict = proofs.as_ref().map_or(verdict, proved);
     // Where effects leave no more, there is nothing to describe.
     let whole = verdict == Verdict::PartlyExplained && !evidence.approximate();
     let unknown = if whole { None } else { describe(verdict, alone.as_ref(), &named, data) };

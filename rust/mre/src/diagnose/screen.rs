@@ -98,7 +98,7 @@ impl Null<'_> {
         };
         let gains: Vec<f64> = (0..starts.len()).map(|s| gain(&right, s)).collect();
         let (best, gain_of_best) = gains.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
-        let counted = |s: usize| if tame == right { gains[s] } else { gain(&tame, s) };
+        let counted = |s: usize| if tame == right { gains[s] } else { gains[s].min(gain(&tame, s)) };
         let tail = |s: usize| blocks[s].tail(counted(s) / CAUTION);
         let smallest = (0..starts.len()).map(tail).fold(1.0, f64::min);
         let correction = correction(&gram, &blocks, width, seed);

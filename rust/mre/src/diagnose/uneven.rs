@@ -131,8 +131,9 @@ fn chance(covariance: &DMatrix<f64>, right: &DVector<f64>) -> f64 {
     let chosen: Vec<usize> = (0..COLUMNS).collect();
     let bias = DVector::zeros(COLUMNS);
     let (gram, tame, strays) = (covariance.clone(), right.clone(), Strays::none(COLUMNS));
-    let right = right.clone();
-    Projected::of(&Projection { gram, right, tame, bias, squares, strays }, &chosen).mismatch().cautious()
+    Projected::of(&Projection { gram, right: right.clone(), tame, bias, squares, strays }, &chosen)
+        .mismatch()
+        .cautious()
 }
 
 /// Square of the mean of whitened samples, of unit mean under white noise.

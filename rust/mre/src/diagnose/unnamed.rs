@@ -82,9 +82,9 @@ fn gains(null: &Null, columns: &[Force]) -> [f64; 2] {
         let of = |column: &Force| (0..scene.len()).map(|i| column(i, &scene)).collect();
         columns.iter().map(of).enumerate().collect()
     });
-    let Projection { gram, tame, squares, .. } = &projected;
+    let Projection { gram, right, tame, squares, .. } = &projected;
     let left = |i: usize| gram[(i, i)] > SMALLEST_SHARE * squares[i];
     let first = if left(0) { projected.strength(0).powi(2) } else { 0.0 };
     let all = (0..columns.len()).all(left).then(|| gram.clone().cholesky()).flatten();
-    [first, all.map_or(0.0, |factor| tame.dot(&factor.solve(tame)))]
+    [first, all.map_or(0.0, |factor| right.dot(&factor.solve(right)).min(tame.dot(&factor.solve(tame))))]
 }

@@ -18,6 +18,9 @@ const SEEN: [f64; 2] = [0.005, 0.1];
 /// every recording too.
 const APART: f64 = 0.1;
 
+/// A rms error on held-out data that grows by so much is worse: by less it does in a slow noise by chance.
+const WORSE: f64 = 1.001;
+
 /// Tests of any mismatch.
 const OF_ANY: f64 = 7.0;
 
@@ -49,6 +52,15 @@ impl Verdict {
             Self::MissingPhysics => "missing_physics",
             Self::PartlyExplained => "partly_explained",
             Self::Unexplained => "unexplained",
+        }
+    }
+
+    /// The verdict, once it is known how the rms error on held-out data changes: effects that worsen the prediction of data
+    /// that took no part may stand for another, however much of the mismatch they explain.
+    pub(super) fn beside_proofs(self, before: f64, after: f64) -> Self {
+        match self {
+            Self::MissingPhysics if after > WORSE * before => Self::PartlyExplained,
+            told => told,
         }
     }
 }
@@ -205,5 +217,19 @@ impl Evidence {
     /// True where a mismatch is left: the law of the named effects is not exactly the catalogue's.
     pub fn approximate(&self) -> bool {
         self.p_rest <= self.false_alarm
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_that_worsens_the_prediction_of_held_out_data_is_a_hint() {
+        let told = |after| Verdict::MissingPhysics.beside_proofs(2.0, after);
+        assert_eq!(told(1.9), Verdict::MissingPhysics);
+        assert_eq!(told(2.001), Verdict::MissingPhysics);
+        assert_eq!(told(2.01), Verdict::PartlyExplained);
+        assert_eq!(Verdict::Adequate.beside_proofs(2.0, 3.0), Verdict::Adequate);
     }
 }

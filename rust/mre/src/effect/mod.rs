@@ -69,7 +69,6 @@ pub use initial_hysteresis::InitialHysteresis;
 pub(crate) use initial_hysteresis::STARTS;
 pub use initial_state::{InitialState, starts_in_motion};
 pub(crate) use mains::{sampled, told};
-pub(crate) use operators::slope;
 pub use quantisation::Quantisation;
 pub use scene::{Acceleration, Scene, Sizes};
 

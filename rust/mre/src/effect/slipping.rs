@@ -4,7 +4,7 @@
 //! |---|---|---|---|
 //! | `zeta_1` | depth of the slip | - | 0 to 0.97 |
 //! | `zeta_2` | width of the slip, share of the yield force | - | 0.05 to 0.8 |
-//! | q | force at which it slips most, share of the yield force, in the direction of motion | - | -0.3 to 0.5 |
+//! | q | force at which it slips most, share of the yield force, in the direction of motion | - | -0.3 to 0.3 |
 //! | `w_x` | half width of a clearance | mm | 3 % to 60 % of the largest stroke |
 //!
 //! Reference: Baber and Noori, J. Vib. Acoust. Stress Reliab. Des. 108 (1986) 411.
@@ -50,7 +50,7 @@ impl Effect for Slipping {
         let depth = ideal_above(within("zeta_1", "", 0.0, 0.97));
         let x = sizes.displacement;
         match self {
-            Self::ByForce => vec![depth, within("zeta_2", "", 0.05, 0.8), within("q", "", -0.3, 0.5)],
+            Self::ByForce => vec![depth, within("zeta_2", "", 0.05, 0.8), within("q", "", -0.3, 0.3)],
             Self::ByPlace => vec![depth, order_within("w_x", "mm", 0.03 * x, 0.6 * x)],
         }
     }

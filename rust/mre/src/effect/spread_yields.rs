@@ -3,9 +3,9 @@
 //! | symbol | meaning | unit | range |
 //! |---|---|---|---|
 //! | `k_h` | stiffness before yield | N/mm | >= 0 |
-//! | `r_max` | largest yield displacement | mm | 10 % to 300 % of the largest stroke |
-//! | h | smallest yield displacement as a share of `r_max` | - | 0.01 to 0.8 |
-//! | q | exponent of the distribution: yields below r have the share (r^q - (h `r_max`)^q)/(`r_max`^q - (h `r_max`)^q) | - | -2 to 2 |
+//! | `r_max` | largest yield displacement | mm | 30 % to 300 % of the largest stroke |
+//! | h | smallest yield displacement as a share of `r_max` | - | 0.02 to 0.8 |
+//! | q | exponent of the distribution: yields below r have the share (r^q - (h `r_max`)^q)/(`r_max`^q - (h `r_max`)^q) | - | -1 to 2 |
 //!
 //! Reference: Segalman 2005, J. Appl. Mech. 72 (2005) 752, with a smallest yield: without it small yields can have no more
 //! than a share of the stiffness that falls with them.
@@ -21,14 +21,14 @@ const ELEMENTS: usize = 12;
 /// Below this exponent yields are as stiff in every octave.
 const EVEN: f64 = 1e-6;
 /// Shares of the stroke, and smallest over largest yield with the exponent, from which a fit starts.
-const LARGEST: [f64; 3] = [0.3, 0.7, 2.0];
+const LARGEST: [f64; 3] = [0.4, 0.8, 2.0];
 const SPREAD: [(f64, f64); 2] = [(0.03, -0.7), (0.1, 0.5)];
 
 /// Elastic-plastic elements in parallel with yields between two.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SpreadYields;
 
-/// Integral of the distribution up to a yield, as a share of the largest.
+/// Integral of the distribution up to a yield over the largest, but for a constant.
 fn cumulated(r: f64, q: f64) -> f64 {
     if q.abs() < EVEN { r.ln() } else { r.powf(q) / q }
 }
@@ -50,9 +50,9 @@ impl Effect for SpreadYields {
     fn shape(&self, sizes: &Sizes) -> Vec<Parameter> {
         let x = sizes.displacement;
         vec![
-            order_within("r_max", "mm", 0.1 * x, 3.0 * x),
-            order_within("h", "", 0.01, 0.8),
-            within("q", "", -2.0, 2.0),
+            order_within("r_max", "mm", 0.3 * x, 3.0 * x),
+            order_within("h", "", 0.02, 0.8),
+            within("q", "", -1.0, 2.0),
         ]
     }
 

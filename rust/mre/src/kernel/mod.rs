@@ -28,6 +28,7 @@ mod sinh;
 pub(crate) mod sinh_compressed;
 mod sinh_direct;
 mod sinh_series;
+pub(crate) mod slope;
 pub(crate) mod spline;
 pub(crate) mod state_change;
 mod total;

@@ -81,7 +81,7 @@ impl Calming {
             less(all, &[displacement, velocity])
         };
         let off = each(noisy.measured, &displacement, |all, calm| all - calm);
-        let distortion = Distortion::of(&[displacement, velocity], noisy.step, taken);
+        let distortion = Distortion::of(&[displacement, velocity], noisy.time, taken);
         let distortion = distortion.filter(|own| own.stands_out(&off, noisy.variance));
         Self { distortion, ..calming }
     }
@@ -126,13 +126,12 @@ impl Calming {
             let noise = beside.map(|part| each(&part, &self.rest, |part, share| share * part));
             taken = [0, 1].map(|k| each(&taken[k], &noise[k], |taken, noise| taken + noise));
         }
-        let mut motion = less(&calm, &taken);
         if let Some(distortion) = &self.distortion {
-            let all = each(displacement, &motion[0], |all, calm| all - calm);
-            let part = distortion.part_of(&all);
-            motion = [0, 1].map(|k| each(&motion[k], &part[k], |calm, part| calm + part));
+            let smooth = less(&calm, &taken);
+            let part = distortion.part_of(&each(displacement, &smooth[0], |all, smooth| all - smooth));
+            taken = less(&taken, &part);
         }
-        let [displacement, velocity] = motion;
+        let [displacement, velocity] = less(&calm, &taken);
         let noisy = if self.shares.is_empty() { Vec::new() } else { [vec![taken], mixed].concat() };
         Calm { displacement, velocity, noisy }
     }

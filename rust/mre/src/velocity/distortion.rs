@@ -3,19 +3,20 @@
 //! Smoothing takes them off with the noise, and a stiff device shows them. Of what it takes off, the part that is a
 //! polynomial of the displacement and the velocity that it leaves is motion: a few coefficients of many samples.
 
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use std::sync::Arc;
+
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Matrix2, Vector2};
 
 use super::octaves::Motion;
 use crate::kernel::filter::dot;
+use crate::kernel::slope::slope;
+use crate::recording::mean;
 
-/// Powers of the displacement and of the velocity: a sine itself, whose loss is none of a distortion, and its second and
-/// third harmonic in either phase.
-const POWERS: [(i32, i32); 9] = [(1, 0), (0, 1), (2, 0), (1, 1), (0, 2), (3, 0), (2, 1), (1, 2), (0, 3)];
-/// Columns of the motion itself.
-const ITSELF: usize = 2;
+/// Powers of the displacement and of the velocity: the second and the third harmonic of a sine in either phase.
+const POWERS: [(i32, i32); 7] = [(2, 0), (1, 1), (0, 2), (3, 0), (2, 1), (1, 2), (0, 3)];
 /// Samples for each of them at least.
 const SAMPLES_EACH: usize = 50;
-/// Squares of the noise's deviation that a distortion stands out by: about seven are those of noise.
+/// Squares of the noise's deviation that a distortion stands out by: seven are those of noise.
 const SEEN: f64 = 30.0;
 /// What is motion beyond this share is none that noise hides.
 const MOTION: f64 = 0.5;
@@ -27,20 +28,19 @@ const RIDGE: f64 = 1e-9;
 /// How a distortion is told from the noise that smoothing takes off: the same way from everything that is added to it.
 #[derive(Debug, Clone)]
 pub(super) struct Distortion {
-    /// What smoothing takes off each polynomial and its slope, scaled to unit length of the first.
-    columns: Vec<Motion>,
+    /// What smoothing takes off each polynomial and its slope, beside the motion itself; of unit length.
+    columns: Arc<[Motion]>,
     factor: Cholesky<f64, Dyn>,
 }
 
 impl Distortion {
-    /// Of a smooth motion on an even grid, where `taken` is what smoothing takes off a series and its slope; `None` of few
-    /// samples.
-    pub(super) fn of(motion: &Motion, step: f64, taken: impl Fn(&Motion) -> Motion) -> Option<Self> {
-        if motion[0].len() < SAMPLES_EACH * POWERS.len() {
+    /// Of a smooth motion, where `taken` is what smoothing takes off a series and its slope; `None` of few samples.
+    pub(super) fn of(motion: &Motion, time: &[f64], taken: impl Fn(&Motion) -> Motion) -> Option<Self> {
+        if time.len() < SAMPLES_EACH * POWERS.len() {
             return None;
         }
         let [x, v] = motion.each_ref().map(|series| scaled(series));
-        let rates = [&x, &v].map(|series| slope(series, step));
+        let rates = [&x, &v].map(|series| slope(time, series));
         let polynomial = |(a, b): (i32, i32)| {
             let value = |i: usize| x[i].powi(a) * v[i].powi(b);
             let by_x = |i: usize| f64::from(a) * x[i].powi((a - 1).max(0)) * v[i].powi(b) * rates[0][i];
@@ -48,12 +48,10 @@ impl Distortion {
             let all = 0..x.len();
             [all.clone().map(value).collect(), all.map(|i| by_x(i) + by_v(i)).collect()]
         };
-        let unit = |[value, slope]: Motion| {
-            let size = dot(&value, &value).sqrt();
-            [value, slope].map(|part| part.into_iter().map(|e| e / size).collect::<Vec<f64>>())
-        };
-        let columns: Vec<Motion> =
-            POWERS.into_iter().map(|powers| unit(taken(&polynomial(powers)))).collect();
+        let lost = |powers| taken(&polynomial(powers));
+        // What smoothing takes off the motion itself is no distortion of it.
+        let itself = [(1, 0), (0, 1)].map(lost);
+        let columns: Vec<Motion> = POWERS.into_iter().map(|p| unit(beside(lost(p), &itself))).collect();
         if !columns.iter().flatten().flatten().all(|value| value.is_finite()) {
             return None;
         }
@@ -61,56 +59,56 @@ impl Distortion {
         let gram = DMatrix::from_fn(count, count, |i, j| {
             dot(&columns[i][0], &columns[j][0]) + if i == j { RIDGE } else { 0.0 }
         });
-        Some(Self { factor: gram.cholesky()?, columns })
+        Some(Self { factor: gram.cholesky()?, columns: columns.into() })
     }
 
     /// True where what smoothing took off is mostly noise of a variance, and has more of a distortion than that would, all
     /// over: where a motion has bends, they are what it lost.
     pub(super) fn stands_out(&self, taken: &[f64], variance: f64) -> bool {
-        let products = self.products(taken);
-        let explained = products.dot(&self.factor.solve(&products));
         let part = &self.part_of(taken)[0];
         let (square, fourth) = (dot(part, part), part.iter().map(|e| e.powi(4)).sum::<f64>());
         let everywhere = square.powi(2) > EVERYWHERE * fourth * part.len() as f64;
-        explained < MOTION * dot(taken, taken) && square > SEEN * variance && everywhere
+        square < MOTION * dot(taken, taken) && square > SEEN * variance && everywhere
     }
 
     /// The part of what smoothing took off a displacement in mm that follows the motion, mm, and its slope, mm/s.
     pub(super) fn part_of(&self, taken: &[f64]) -> Motion {
-        let sizes = self.factor.solve(&self.products(taken));
+        let products = self.columns.iter().map(|column| dot(&column[0], taken));
+        let sizes = self.factor.solve(&DVector::from_iterator(self.columns.len(), products));
         [0, 1].map(|k| {
             let mut part = vec![0.0; taken.len()];
-            for (column, size) in self.columns.iter().zip(&sizes).skip(ITSELF) {
+            for (column, size) in self.columns.iter().zip(&sizes) {
                 part.iter_mut().zip(&column[k]).for_each(|(sum, value)| *sum += size * value);
             }
             part
         })
     }
-
-    fn products(&self, taken: &[f64]) -> DVector<f64> {
-        DVector::from_iterator(self.columns.len(), self.columns.iter().map(|column| dot(&column[0], taken)))
-    }
 }
 
 /// A series about its mean in units of its largest value.
 fn scaled(series: &[f64]) -> Vec<f64> {
-    let mean = series.iter().sum::<f64>() / series.len() as f64;
+    let mean = mean(series);
     let largest = series.iter().fold(0.0_f64, |most, value| most.max((value - mean).abs()));
     series.iter().map(|value| (value - mean) / largest).collect()
 }
 
-/// Slopes of a smooth series on an even grid, of the fourth order but for the samples at its ends.
-fn slope(series: &[f64], step: f64) -> Vec<f64> {
-    let last = series.len() - 1;
-    let difference = |i: usize, reach: usize| {
-        let (before, after) = (i.saturating_sub(reach), (i + reach).min(last));
-        (series[after] - series[before]) / ((after - before) as f64 * step)
-    };
-    let at = |i: usize| {
-        let near = difference(i, 1);
-        if i < 2 || i + 2 > last { near } else { near + (near - difference(i, 2)) / 3.0 }
-    };
-    (0..=last).map(at).collect()
+/// Values and slopes less the combination of two others that is nearest to the values.
+fn beside(mut column: Motion, others: &[Motion; 2]) -> Motion {
+    let gram = Matrix2::from_fn(|i, j| dot(&others[i][0], &others[j][0]));
+    let right = Vector2::from_fn(|i, _| dot(&others[i][0], &column[0]));
+    let sizes = gram.try_inverse().map_or_else(Vector2::zeros, |inverse| inverse * right);
+    for (other, size) in others.iter().zip(&sizes) {
+        for (own, other) in column.iter_mut().zip(other) {
+            own.iter_mut().zip(other).for_each(|(own, other)| *own -= size * other);
+        }
+    }
+    column
+}
+
+/// The same at a length of one.
+fn unit(column: Motion) -> Motion {
+    let size = dot(&column[0], &column[0]).sqrt();
+    column.map(|part| part.into_iter().map(|value| value / size).collect())
 }
 
 #[cfg(test)]
