@@ -11,7 +11,8 @@ def verdict(kind: str, base: str, effects: Sequence[str], fit: Mapping[str, Any]
     ----------
     kind : str
         ``"adequate"``, ``"missing_physics"``, ``"partly_explained"`` or ``"unexplained"``; ``"nearest"``
-        where nothing is left of a mismatch, but its effects fit only at the end of their range; ``"inexact"``
+        where nothing is left of a mismatch, but its effects fit only at the end of their range or worsen
+        the prediction of held-out data; ``"inexact"``
         where little is left, but more than noise.
     base : str
         Name of the base model.

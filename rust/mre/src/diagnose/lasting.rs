@@ -4,7 +4,7 @@ use nalgebra::DVector;
 
 use super::locate::{CLEARLY, Finding, Place, SMALLEST_SHARE};
 use super::null::Null;
-use super::projection::Projection;
+use super::projection::{Projection, smaller};
 
 /// Parts of a recording between which the stiffness may change for good.
 const PARTS: usize = 20;
@@ -31,19 +31,19 @@ pub(super) fn lasting(null: &Null) -> Vec<Finding> {
         };
         (0..PARTS).map(|part| (r * PARTS + part, from(part))).collect()
     });
-    let right = DVector::from_fn(count, |i, _| projected.counted(i));
-    let Projection { gram, squares, .. } = projected;
+    let Projection { gram, right, tame, squares, .. } = projected;
     let squares = DVector::from(squares);
     let mut found = Vec::new();
     for r in 0..recordings - 1 {
         let mut later = DVector::<f64>::zeros(count);
         (r + 1..recordings).for_each(|s| later[s * PARTS] = 1.0);
-        let (bent, own, shown) = (&gram * &later, later.dot(&right), later.dot(&squares));
+        let (bent, shown) = (&gram * &later, later.dot(&squares));
         let strength = |i: Option<usize>| {
-            let (cross, itself, square, score) =
-                i.map_or((0.0, 0.0, 0.0, 0.0), |i| (bent[i], gram[(i, i)], squares[i], right[i]));
+            let (cross, itself, square) = i.map_or((0.0, 0.0, 0.0), |i| (bent[i], gram[(i, i)], squares[i]));
             let left = itself + 2.0 * cross + later.dot(&bent);
-            if left > SMALLEST_SHARE * (square + shown) { (score + own) / left.sqrt() } else { 0.0 }
+            let score = |of: &DVector<f64>| later.dot(of) + i.map_or(0.0, |i| of[i]);
+            let told = smaller(score(&right), score(&tame)) / left.sqrt();
+            if left > SMALLEST_SHARE * (square + shown) { told } else { 0.0 }
         };
         // Between two recordings is another place.
         let between = strength(None).powi(2).max(strength(Some(r * PARTS)).powi(2));

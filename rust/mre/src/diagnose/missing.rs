@@ -97,8 +97,13 @@ impl Projected {
 
     /// What the columns take off together.
     pub(super) fn mismatch(self) -> Mismatch {
+        self.gains().map_or(Mismatch::NONE, |([gain, tame], freedom)| Mismatch::new(gain.min(tame), freedom))
+    }
+
+    /// That of the samples as they are, and where none of them is wild; with the number of independent columns.
+    pub(super) fn gains(self) -> Option<([f64; 2], usize)> {
         if self.right.is_empty() {
-            return Mismatch::NONE;
+            return None;
         }
         let eigen = self.gram.symmetric_eigen();
         let kept: Vec<usize> =
@@ -107,18 +112,15 @@ impl Projected {
             eigen.eigenvectors[(i, kept[k])] / eigen.eigenvalues[kept[k]].sqrt()
         });
         let covariance = self.strays.combined(&along).covariance();
-        let Some(factor) = covariance.cholesky() else { return Mismatch::NONE };
+        let factor = covariance.cholesky()?;
         let even = |product: &DVector<f64>| factor.l().solve_lower_triangular(&(&along * product));
-        let Some(bias) = even(&self.bias) else { return Mismatch::NONE };
+        let bias = even(&self.bias)?;
         let gain = |products: &DVector<f64>| {
             let right = even(products)?;
             let further = unsure(right.dot(&bias) / bias.norm_squared());
             Some((&right - &bias * further).norm_squared())
         };
-        let (Some(as_they_are), Some(tame)) = (gain(&self.right), gain(&self.tame)) else {
-            return Mismatch::NONE;
-        };
-        Mismatch::new(as_they_are.min(tame), kept.len())
+        Some(([gain(&self.right)?, gain(&self.tame)?], kept.len()))
     }
 }
 

@@ -135,11 +135,12 @@ impl Null<'_> {
         });
         let of = |kinds: &[usize]| {
             let places = kinds.iter().flat_map(|kind| 2 * kind * count..2 * (kind + 1) * count);
-            Projected::of(&projected, &places.collect::<Vec<_>>()).mismatch()
+            Projected::of(&projected, &places.collect::<Vec<_>>()).gains().unwrap_or_default()
         };
         let beside = |tone: usize| {
-            let (tones, all) = (of(&[tone]), of(&[tone, CARRIED]));
-            Mismatch { p_value: 1.0, gain: all.gain - tones.gain, freedom: all.freedom - tones.freedom }
+            let ((tones, fewer), (all, more)) = (of(&[tone]), of(&[tone, CARRIED]));
+            let gain = (all[0] - tones[0]).min(all[1] - tones[1]);
+            Mismatch { p_value: 1.0, gain, freedom: more - fewer }
         };
         let [there, above, below] = [THERE, ABOVE, BELOW].map(beside);
         [above, below]

@@ -41,7 +41,7 @@ impl Projection {
 }
 
 /// The value that is closer to zero.
-fn smaller(a: f64, b: f64) -> f64 {
+pub(super) fn smaller(a: f64, b: f64) -> f64 {
     if b.abs() < a.abs() { b } else { a }
 }
 

@@ -97,9 +97,10 @@ impl Null<'_> {
             scattered.least_gain(&part(of, s), &part(&bias, s))
         };
         let gains: Vec<f64> = (0..starts.len()).map(|s| gain(&right, s)).collect();
-        let (best, gain_of_best) = gains.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
-        let counted = |s: usize| if tame == right { gains[s] } else { gains[s].min(gain(&tame, s)) };
-        let tail = |s: usize| blocks[s].tail(counted(s) / CAUTION);
+        let of_a_test = |s: usize| if tame == right { gains[s] } else { gains[s].min(gain(&tame, s)) };
+        let counted: Vec<f64> = (0..starts.len()).map(of_a_test).collect();
+        let (best, _) = counted.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;
+        let tail = |s: usize| blocks[s].tail(counted[s] / CAUTION);
         let smallest = (0..starts.len()).map(tail).fold(1.0, f64::min);
         let correction = correction(&gram, &blocks, width, seed);
         let trace = (0..raw.len())
@@ -116,7 +117,7 @@ impl Null<'_> {
         Some(Score {
             effect,
             start: starts[best].clone(),
-            gain: gain_of_best,
+            gain: gains[best],
             freedom: width,
             p_value: (correction * smallest).min(1.0),
             visible,

@@ -38,7 +38,7 @@ pub enum Verdict {
     /// The effects named explain the mismatch.
     MissingPhysics,
     /// Effects were found, and a mismatch is left that nothing in the catalogue explains, or one of them fits only
-    /// where its law ends.
+    /// where its law ends, or they worsen the prediction of data that took no part.
     PartlyExplained,
     /// A mismatch, and nothing in the catalogue explains it.
     Unexplained,

@@ -22,6 +22,8 @@ const SEEN: f64 = 30.0;
 const MOTION: f64 = 0.5;
 /// Squared mean square over mean fourth power of what is all over a recording: two thirds for a sine.
 const EVERYWHERE: f64 = 0.2;
+/// Share of its square that a polynomial has to have beside the motion itself.
+const LEAST: f64 = 1e-6;
 /// Keeps the normal equations solvable, scaled to ones on the diagonal: in a sine some of them are one.
 const RIDGE: f64 = 1e-9;
 
@@ -30,6 +32,8 @@ const RIDGE: f64 = 1e-9;
 pub(super) struct Distortion {
     /// What smoothing takes off each polynomial and its slope, beside the motion itself; of unit length.
     columns: Arc<[Motion]>,
+    /// What it takes off the displacement and the velocity, with the slopes.
+    itself: Arc<[Motion; 2]>,
     factor: Cholesky<f64, Dyn>,
 }
 
@@ -51,15 +55,15 @@ impl Distortion {
         let lost = |powers| taken(&polynomial(powers));
         // What smoothing takes off the motion itself is no distortion of it.
         let itself = [(1, 0), (0, 1)].map(lost);
-        let columns: Vec<Motion> = POWERS.into_iter().map(|p| unit(beside(lost(p), &itself))).collect();
-        if !columns.iter().flatten().flatten().all(|value| value.is_finite()) {
+        let columns: Vec<Motion> = POWERS.into_iter().filter_map(|p| own_of(lost(p), &itself)).collect();
+        if columns.is_empty() {
             return None;
         }
         let count = columns.len();
         let gram = DMatrix::from_fn(count, count, |i, j| {
             dot(&columns[i][0], &columns[j][0]) + if i == j { RIDGE } else { 0.0 }
         });
-        Some(Self { factor: gram.cholesky()?, columns: columns.into() })
+        Some(Self { factor: gram.cholesky()?, columns: columns.into(), itself: itself.into() })
     }
 
     /// True where what smoothing took off is mostly noise of a variance, and has more of a distortion than that would, all
@@ -68,7 +72,9 @@ impl Distortion {
         let part = &self.part_of(taken)[0];
         let (square, fourth) = (dot(part, part), part.iter().map(|e| e.powi(4)).sum::<f64>());
         let everywhere = square.powi(2) > EVERYWHERE * fourth * part.len() as f64;
-        square < MOTION * dot(taken, taken) && square > SEEN * variance && everywhere
+        let [rest, _] = beside([taken.to_vec(), Vec::new()], &self.itself);
+        let noisy = dot(&rest, &rest) - square > (1.0 - MOTION) * dot(taken, taken);
+        noisy && square > SEEN * variance && everywhere
     }
 
     /// The part of what smoothing took off a displacement in mm that follows the motion, mm, and its slope, mm/s.
@@ -105,10 +111,13 @@ fn beside(mut column: Motion, others: &[Motion; 2]) -> Motion {
     column
 }
 
-/// The same at a length of one.
-fn unit(column: Motion) -> Motion {
-    let size = dot(&column[0], &column[0]).sqrt();
-    column.map(|part| part.into_iter().map(|value| value / size).collect())
+/// The same at a length of one; `None` of a column that is a combination of the others.
+fn own_of(column: Motion, others: &[Motion; 2]) -> Option<Motion> {
+    let whole = dot(&column[0], &column[0]);
+    let left = beside(column, others);
+    let square = dot(&left[0], &left[0]);
+    let unit = |part: Vec<f64>| part.into_iter().map(|value| value / square.sqrt()).collect();
+    (square > LEAST * whole).then(|| left.map(unit))
 }
 
 #[cfg(test)]
