@@ -6,6 +6,7 @@
 use nalgebra::DVector;
 
 use super::point::Local;
+use super::tangents::products;
 use crate::kernel::filter::dot;
 
 /// Standard deviations beyond which a sample is rare in a normal noise.
@@ -37,12 +38,7 @@ impl Tame {
         count: usize,
     ) -> Option<Self> {
         let residuals = tame(recordings.iter().map(|local| local.residual.as_slice()))?;
-        let mut right = DVector::<f64>::zeros(count);
-        for (columns, residual) in tangents.iter().zip(&residuals) {
-            for (i, column) in columns {
-                right[*i] += dot(column, residual);
-            }
-        }
+        let right = products(tangents, residuals.iter().map(Vec::as_slice), count);
         Some(Self { residuals, right })
     }
 }

@@ -10,7 +10,7 @@ use super::point::Point;
 use super::projection::{Projection, View};
 use super::shaken::{Change, Shaken, square};
 use super::strays::Strays;
-use super::tangents::tangents_at;
+use super::tangents::{products, tangents_at};
 use crate::assembly::Assembly;
 use crate::effect::{Effect, Scene};
 use crate::kernel::filter::dot;
@@ -50,7 +50,6 @@ impl<'a> Null<'a> {
         let last = tangents.iter().flatten().map(|(place, _)| place + 1).max();
         let count = last.unwrap_or(0).max(known);
         let mut gram = DMatrix::<f64>::zeros(count, count);
-        let mut right = DVector::<f64>::zeros(count);
         let mut bias = DVector::<f64>::zeros(count);
         for other in &mut shaken {
             let there = other.tangents(data, known);
@@ -60,14 +59,15 @@ impl<'a> Null<'a> {
             }
         }
         bias /= shaken.len().max(1) as f64;
-        for (columns, local) in tangents.iter().zip(&point.recordings) {
+        for columns in &tangents {
             for (i, a) in columns {
-                right[*i] += dot(a, &local.residual);
                 for (j, b) in columns {
                     gram[(*i, *j)] += dot(a, b);
                 }
             }
         }
+        let right =
+            products(&tangents, point.recordings.iter().map(|local| local.residual.as_slice()), count);
         // What hides the noise is no noise.
         let known = !data.noise.hidden();
         let tame = known.then(|| Tame::of(&point.recordings, &tangents, count)).flatten();

@@ -1,9 +1,12 @@
 //! What small changes of a fitted model, and noise of the motions, change its force by.
 
+use nalgebra::DVector;
+
 use super::least_squares::Data;
 use super::normal::whitened;
 use super::point::Point;
 use crate::assembly::Assembly;
+use crate::kernel::filter::dot;
 use crate::recording::Condition;
 
 /// What may be noise of a derived motion, whitened: the force does not follow it, so that every coefficient of it is
@@ -35,4 +38,19 @@ pub(super) fn tangents_at(
         std::mem::take(&mut local.columns).into_iter().chain(own).chain(noisy).collect()
     })
     .collect()
+}
+
+/// Products of so many tangents with residuals, by recording.
+pub(super) fn products<'r>(
+    tangents: &[Vec<(usize, Vec<f64>)>],
+    residuals: impl Iterator<Item = &'r [f64]>,
+    count: usize,
+) -> DVector<f64> {
+    let mut sums = DVector::zeros(count);
+    for (columns, residual) in tangents.iter().zip(residuals) {
+        for (i, column) in columns {
+            sums[*i] += dot(column, residual);
+        }
+    }
+    sums
 }

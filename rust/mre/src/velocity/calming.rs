@@ -71,11 +71,13 @@ impl Calming {
         let (best, cut_off) = noisy.low_passed(narrow, &wide);
         let (shares, left) = noisy.shares_of_octaves(best, wide);
         let octaves = Self { noise, window, cut_off, shares, rest: Vec::new(), distortion: None };
-        let calm = octaves.over(noisy.time, noisy.measured).displacement;
+        let calm = octaves.over(noisy.time, noisy.measured);
         let left: Vec<f64> = left.iter().map(|left| noisy.variance * left).collect();
-        let rest = at_rest(&calm, &left, window.half, octaves.shares.len());
+        let rest = at_rest(&calm.displacement, &left, window.half, octaves.shares.len());
         let calming = Self { rest, ..octaves };
-        let Calm { displacement, velocity, .. } = calming.over(noisy.time, noisy.measured);
+        let rests = !calming.rest.is_empty();
+        let calm = if rests { calming.over(noisy.time, noisy.measured) } else { calm };
+        let Calm { displacement, velocity, .. } = calm;
         let taken = |all: &Motion| {
             let Calm { displacement, velocity, .. } = calming.over(noisy.time, &all[0]);
             less(all, &[displacement, velocity])

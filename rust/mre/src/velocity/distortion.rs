@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Matrix2, Vector2};
 
-use super::octaves::Motion;
+use super::octaves::{Motion, each, less};
 use crate::kernel::filter::dot;
 use crate::kernel::slope::slope;
 use crate::recording::mean;
@@ -55,7 +55,7 @@ impl Distortion {
         let lost = |powers| taken(&polynomial(powers));
         // What smoothing takes off the motion itself is no distortion of it.
         let itself = [(1, 0), (0, 1)].map(lost);
-        let columns: Vec<Motion> = POWERS.into_iter().filter_map(|p| own_of(lost(p), &itself)).collect();
+        let columns: Vec<Motion> = POWERS.into_iter().filter_map(|p| own_of(&lost(p), &itself)).collect();
         if columns.is_empty() {
             return None;
         }
@@ -72,7 +72,7 @@ impl Distortion {
         let part = &self.part_of(taken)[0];
         let (square, fourth) = (dot(part, part), part.iter().map(|e| e.powi(4)).sum::<f64>());
         let everywhere = square.powi(2) > EVERYWHERE * fourth * part.len() as f64;
-        let [rest, _] = beside([taken.to_vec(), Vec::new()], &self.itself);
+        let rest = each(taken, &nearest(taken, &self.itself)[0], |all, part| all - part);
         let noisy = dot(&rest, &rest) - square > (1.0 - MOTION) * dot(taken, taken);
         noisy && square > SEEN * variance && everywhere
     }
@@ -98,23 +98,18 @@ fn scaled(series: &[f64]) -> Vec<f64> {
     series.iter().map(|value| (value - mean) / largest).collect()
 }
 
-/// Values and slopes less the combination of two others that is nearest to the values.
-fn beside(mut column: Motion, others: &[Motion; 2]) -> Motion {
+/// The combination of two others that is nearest to some values, with its slope.
+fn nearest(values: &[f64], others: &[Motion; 2]) -> Motion {
     let gram = Matrix2::from_fn(|i, j| dot(&others[i][0], &others[j][0]));
-    let right = Vector2::from_fn(|i, _| dot(&others[i][0], &column[0]));
+    let right = Vector2::from_fn(|i, _| dot(&others[i][0], values));
     let sizes = gram.try_inverse().map_or_else(Vector2::zeros, |inverse| inverse * right);
-    for (other, size) in others.iter().zip(&sizes) {
-        for (own, other) in column.iter_mut().zip(other) {
-            own.iter_mut().zip(other).for_each(|(own, other)| *own -= size * other);
-        }
-    }
-    column
+    [0, 1].map(|k| each(&others[0][k], &others[1][k], |a, b| sizes[0] * a + sizes[1] * b))
 }
 
-/// The same at a length of one; `None` of a column that is a combination of the others.
-fn own_of(column: Motion, others: &[Motion; 2]) -> Option<Motion> {
+/// A column beside two others at a length of one; `None` of a column that is a combination of the others.
+fn own_of(column: &Motion, others: &[Motion; 2]) -> Option<Motion> {
     let whole = dot(&column[0], &column[0]);
-    let left = beside(column, others);
+    let left = less(column, &nearest(&column[0], others));
     let square = dot(&left[0], &left[0]);
     let unit = |part: Vec<f64>| part.into_iter().map(|value| value / square.sqrt()).collect();
     (square > LEAST * whole).then(|| left.map(unit))
