@@ -139,18 +139,21 @@ impl Assembly<'_> {
     }
 
     fn otherwise(&self, scene: &Scene, shape_of: &[&[f64]]) -> Otherwise {
-        let (mut motion, mut current, mut state): (Option<Motion>, _, _) = (None, None, None);
+        let (mut current, mut state) = (None, None);
         for (effect, shape) in self.effects.iter().zip(shape_of) {
-            let so_far = motion.take();
-            let mut scene = *scene;
-            if let Some(so_far) = &so_far {
-                (scene.displacement, scene.velocity) = (&so_far.displacement, &so_far.velocity);
-            }
-            current = effect.current(&scene, shape).or(current);
+            current = effect.current(scene, shape).or(current);
             state = state.into_iter().chain(effect.state_change(scene.sizes, shape)).reduce(StateChange::and);
-            motion = effect.motion(&scene, shape).or(so_far);
         }
-        Otherwise { motion, current, state }
+        Otherwise { motion: self.motion_of_the_device(scene, shape_of), current, state }
+    }
+
+    /// Motion that the effects leave the device; `None`: that which was measured.
+    pub(super) fn motion_of_the_device(&self, scene: &Scene, shape_of: &[&[f64]]) -> Option<Motion> {
+        let moving = self.effects.iter().zip(shape_of).filter(|(effect, _)| effect.moves());
+        moving.fold(None, |so_far: Option<Motion>, (effect, shape)| {
+            let moved = so_far.as_ref().map_or(*scene, |motion| scene.moved(motion));
+            effect.motion(&moved, shape).or(so_far)
+        })
     }
 }
 

@@ -8,7 +8,7 @@ use super::base::Base;
 use super::base_columns::BaseColumns;
 use super::in_series::InSeries;
 use super::layout::Assembly;
-use crate::effect::{About, Effect, Factors};
+use crate::effect::{About, Effect, Factors, Motion};
 use crate::physics::Part;
 
 /// Columns of one recording.
@@ -66,17 +66,24 @@ pub(super) struct Known {
     pub(super) effects: Vec<Added>,
 }
 
+/// Laws by which the device moves otherwise than was measured, with their shapes.
+pub(super) type Moved = Vec<(About, Vec<f64>)>;
+
 /// What an effect at some shape adds to or scales in every recording.
 pub(super) struct Added {
     of: About,
     shape: Vec<f64>,
+    /// What made the device move otherwise then.
+    moved: Moved,
     pub(super) columns: Vec<Vec<Vec<f64>>>,
     factors: Vec<Option<Factors>>,
 }
 
 impl Known {
-    pub(super) fn added(&self, effect: &dyn Effect, shape: &[f64]) -> Option<&Added> {
-        self.effects.iter().find(|known| known.shape == shape && known.of == effect.about())
+    pub(super) fn added(&self, effect: &dyn Effect, shape: &[f64], moved: &Moved) -> Option<&Added> {
+        let same = |known: &&Added| known.shape == shape && known.of == effect.about();
+        let fixed = effect.moves() || effect.of_the_measurement();
+        self.effects.iter().find(|known| same(known) && (fixed || known.moved == *moved))
     }
 }
 
@@ -111,11 +118,16 @@ impl Assembly<'_> {
         let scene = self.scene(r);
         let mut found = Columns { columns: base.columns, places: base.places, given: None, clip: None };
         let mut between = base.between;
+        // Nothing but the base asks for what one alone does to the motion.
+        let several = self.effects.len() > 1;
+        let motion = if several { self.motion_of_the_device(&scene, &shape_of) } else { None };
+        let device = motion.as_ref().map_or(scene, |motion| scene.moved(motion));
+        let moved = self.moved(&shape_of);
         for (effect, shape) in self.effects.iter().zip(&shape_of) {
-            let known = self.known.as_ref().and_then(|known| known.added(*effect, shape));
+            let known = self.known.as_ref().and_then(|known| known.added(*effect, shape, &moved));
             let factors = match known {
                 Some(known) => known.factors[r].as_ref().map(Cow::Borrowed),
-                None => effect.factors(&scene, shape).map(Cow::Owned),
+                None => effect.factors(&device, shape).map(Cow::Owned),
             };
             if let Some(factors) = factors {
                 scale(&factors, &base.parts, &mut found.columns);
@@ -132,7 +144,7 @@ impl Assembly<'_> {
             }
             found.given = Some(force);
         }
-        self.effect_columns(r, &scene, &shape_of, between, &mut found);
+        self.effect_columns(r, (&scene, &device), &shape_of, between, &mut found);
         if let Some(flexibility) = self.flexibility(shapes).filter(|f| f.gives_way()) {
             let whole = &self.whole[r];
             let rig = InSeries::new(&self.campaign.recordings()[r], whole, whole, flexibility);
@@ -143,23 +155,38 @@ impl Assembly<'_> {
 
     /// What each effect adds at these shapes; taken over where it is known.
     pub(super) fn added(&self, shapes: &[f64]) -> Vec<Added> {
-        let recordings = self.campaign.recordings().len();
-        let of_effect = |(effect, shape): (&&'static dyn Effect, &[f64])| {
-            let (columns, factors) = (0..recordings)
-                .into_par_iter()
-                .map(|r| (effect.columns(&self.scene(r), shape), effect.factors(&self.scene(r), shape)))
-                .unzip();
-            Added { of: effect.about(), shape: shape.to_vec(), columns, factors }
+        let shape_of = self.shape_of(shapes);
+        let recordings = 0..self.campaign.recordings().len();
+        let of_the_device = |r: usize| self.motion_of_the_device(&self.scene(r), &shape_of);
+        let motions: Vec<Option<Motion>> = recordings.clone().map(of_the_device).collect();
+        let moved = self.moved(&shape_of);
+        let of_effect = |(effect, shape): (&&'static dyn Effect, &&[f64])| {
+            let of = |r: usize| {
+                let measured = self.scene(r);
+                let motion = motions[r].as_ref().filter(|_| !effect.of_the_measurement());
+                let scene = motion.map_or(measured, |motion| measured.moved(motion));
+                (effect.columns(&scene, shape), effect.factors(&scene, shape))
+            };
+            let (columns, factors) = recordings.clone().into_par_iter().map(of).unzip();
+            Added { of: effect.about(), shape: shape.to_vec(), moved: moved.clone(), columns, factors }
         };
-        self.effects.iter().zip(self.shape_of(shapes)).map(of_effect).collect()
+        self.effects.iter().zip(&shape_of).map(of_effect).collect()
+    }
+
+    /// What makes the device move otherwise than was measured.
+    pub(super) fn moved(&self, shape_of: &[&[f64]]) -> Moved {
+        let moving = self.effects.iter().zip(shape_of).filter(|(effect, _)| effect.moves());
+        moving.map(|(effect, shape)| (effect.about(), shape.to_vec())).collect()
     }
 
     /// True where all of this is at hand.
     pub(super) fn knows(&self, shapes: &[f64]) -> bool {
         self.known.as_ref().is_some_and(|known| {
-            known.shapes == shapes[..self.base_shapes()]
-                && self.serves(&known.columns)
-                && self.effects.iter().zip(self.shape_of(shapes)).all(|(e, s)| known.added(*e, s).is_some())
+            known.shapes == shapes[..self.base_shapes()] && self.serves(&known.columns) && {
+                let shape_of = self.shape_of(shapes);
+                let moved = self.moved(&shape_of);
+                self.effects.iter().zip(shape_of).all(|(e, s)| known.added(*e, s, &moved).is_some())
+            }
         })
     }
 

@@ -1,31 +1,33 @@
 //! What the effects of an assembly do to a recording: to the force of the device, and to what is measured of it.
 
-use super::columns::Columns;
+use super::columns::{Columns, Moved};
 use super::layout::Assembly;
 use crate::effect::{Effect, Scene};
 
 impl Assembly<'_> {
-    /// What effects add to the force, and channels through which it goes.
+    /// What effects add to the force, and channels through which it goes; they see what was `measured`, the device its
+    /// own motion.
     /// Columns of the base, which come first, may be known `between` the samples as well.
     pub(super) fn effect_columns(
         &self,
         r: usize,
-        scene: &Scene,
+        (measured, device): (&Scene, &Scene),
         shape_of: &[&[f64]],
         mut between: Vec<Vec<f64>>,
         found: &mut Columns,
     ) {
+        let moved = self.moved(shape_of);
         for (effect, shape, first) in self.placed(shape_of) {
             if !effect.of_the_measurement() {
-                found.add(first, self.own_columns(effect, shape, r, scene));
+                found.add(first, self.own_columns(effect, shape, (r, device), &moved));
             }
         }
         for (effect, shape) in self.effects.iter().zip(shape_of) {
             let mut passed = false;
             for (i, column) in found.columns.iter_mut().chain(&mut found.given).enumerate() {
-                let fine = between.get(i).and_then(|halves| effect.through_halves(scene, shape, halves));
-                if let Some(measured) = fine.or_else(|| effect.through(scene, shape, column)) {
-                    *column = measured;
+                let fine = between.get(i).and_then(|halves| effect.through_halves(measured, shape, halves));
+                if let Some(passed_on) = fine.or_else(|| effect.through(measured, shape, column)) {
+                    *column = passed_on;
                     passed = true;
                 }
             }
@@ -50,7 +52,7 @@ impl Assembly<'_> {
         }
         for (effect, shape, first) in self.placed(&shape_of) {
             if effect.of_the_measurement() {
-                let columns = self.own_columns(effect, shape, r, &scene);
+                let columns = self.own_columns(effect, shape, (r, &scene), &Moved::new());
                 found.add(first + r * columns.len(), columns);
             }
         }
@@ -70,8 +72,14 @@ impl Assembly<'_> {
     }
 
     /// Columns of an effect; taken over where they are known.
-    fn own_columns(&self, effect: &dyn Effect, shape: &[f64], r: usize, scene: &Scene) -> Vec<Vec<f64>> {
-        let known = self.known.as_ref().and_then(|known| known.added(effect, shape));
+    fn own_columns(
+        &self,
+        effect: &dyn Effect,
+        shape: &[f64],
+        (r, scene): (usize, &Scene),
+        moved: &Moved,
+    ) -> Vec<Vec<f64>> {
+        let known = self.known.as_ref().and_then(|known| known.added(effect, shape, moved));
         known.map_or_else(|| effect.columns(scene, shape), |known| known.columns[r].clone())
     }
 }

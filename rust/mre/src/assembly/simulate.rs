@@ -116,12 +116,10 @@ pub fn simulate(
 /// The force where the effects see a scene.
 fn pass(source: Source, additions: &[Addition], recording: &Recording, scene: &Scene) -> Result<Vec<f64>> {
     let mut seen = recording.clone();
-    let mut factors: Vec<Factors> = Vec::new();
     for Addition { effect, shape, .. } in additions {
         let mut own = *scene;
         (own.displacement, own.velocity) = (seen.displacement(), seen.velocity());
         let (motion, current) = (effect.motion(&own, shape), effect.current(&own, shape));
-        factors.extend(effect.factors(scene, shape));
         if motion.is_some() || current.is_some() {
             let (x, v) = motion.map_or_else(
                 || (own.displacement.to_vec(), own.velocity.to_vec()),
@@ -131,6 +129,9 @@ fn pass(source: Source, additions: &[Addition], recording: &Recording, scene: &S
         }
         seen = seen.with_state_changed(effect.state_change(scene.sizes, shape));
     }
+    let device = Scene { displacement: seen.displacement(), velocity: seen.velocity(), ..*scene };
+    let factors: Vec<Factors> =
+        additions.iter().filter_map(|added| added.effect.factors(&device, &added.shape)).collect();
     let mut force = vec![0.0; recording.len()];
     for (part, column) in source.parts(&seen)? {
         for (i, value) in column.into_iter().enumerate() {
@@ -140,7 +141,7 @@ fn pass(source: Source, additions: &[Addition], recording: &Recording, scene: &S
     }
     for Addition { effect, coefficients, shape } in additions {
         if !effect.of_the_measurement() {
-            for (c, column) in coefficients.iter().zip(effect.columns(scene, shape)) {
+            for (c, column) in coefficients.iter().zip(effect.columns(&device, shape)) {
                 for (f, value) in force.iter_mut().zip(column) {
                     *f += c * value;
                 }

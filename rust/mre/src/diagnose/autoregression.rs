@@ -12,6 +12,9 @@ const SHORTEST: usize = 6;
 const LONGEST: usize = 100;
 /// Samples for each of its coefficients, at least.
 const SAMPLES_EACH: usize = 25;
+/// White noise beside every other, as a share of its mean square: behind a filter of the recorder there is next to none at some
+/// frequencies, and no law, slope or number is so exact.
+pub(super) const FLOOR: f64 = 1e-4;
 /// Orders that are compared, as shares of the longest.
 const ORDERS: [f64; 6] = [0.0, 0.05, 0.12, 0.25, 0.5, 1.0];
 
@@ -40,6 +43,9 @@ impl Products {
             for j in 0..i {
                 lags[(i, j)] = lags[(j, i)];
             }
+        }
+        for i in 0..=p {
+            lags[(i, i)] *= 1.0 + FLOOR;
         }
         Self { lags, rows: (n - p) as f64 }
     }

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::autoregression::{Choice, Products};
+use super::autoregression::{Choice, FLOOR, Products};
 use super::gaps::{Gaps, LeftOut};
 use super::hum::without_hum;
 use crate::kernel::filter::{dot, prediction_error};
@@ -93,14 +93,15 @@ fn beside_the_odd(products: &[Products], recordings: &[usize]) -> Option<(usize,
 impl Filter {
     fn of(residual: &[f64], step: f64, choice: &Choice, used: f64, left_out: &LeftOut) -> (Self, Gaps) {
         let coefficients = choice.coefficients.clone();
-        let floor = dot(residual, residual) / residual.len() as f64;
+        let square = dot(residual, residual) / residual.len() as f64;
         let mut errors = prediction_error(&without_hum(residual, step), &coefficients, 1.0);
         let gaps = left_out.gaps_of_the_scored(&coefficients, 1.0);
         gaps.leave_out(&mut errors);
         let left = (errors.len() as f64 - used - gaps.count() as f64).max(0.5 * errors.len() as f64);
-        let variance = dot(&errors, &errors) / left;
+        let taps = 1.0 + dot(&coefficients, &coefficients);
+        let variance = dot(&errors, &errors) / left + FLOOR * square * taps;
         // A residual of zeros is no noise: keep the numbers finite.
-        let variance = variance.max(1e-24 * floor).max(f64::MIN_POSITIVE);
+        let variance = variance.max(f64::MIN_POSITIVE);
         let scale = 1.0 / variance.sqrt();
         let whole = left_out.gaps(&coefficients, scale);
         (Self { coefficients, scale, density: 0.0 }, whole)

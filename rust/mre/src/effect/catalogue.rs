@@ -385,6 +385,7 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &Backlash::DeadZone,
     &Backlash::RoundDeadZone,
     &Backlash::FreeDeadZone,
+    &Backlash::Lined,
     &Backlash::OffCentre,
     &Backlash::FreeOffCentre,
     &Backlash::Play,

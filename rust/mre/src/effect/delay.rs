@@ -95,8 +95,8 @@ impl Effect for TimeDelay {
             },
             equation: match self {
                 Self::Continued | Self::Held => "F_measured(t) = F(t - d)",
-                Self::Motion => "the base model sees x(t - d)",
-                Self::Drifting => "the base model sees x(t - d - g t/T), T the longest recording",
+                Self::Motion => "the device sees x(t - d)",
+                Self::Drifting => "the device sees x(t - d - g t/T), T the longest recording",
             },
             reference: "general",
             limit: "at one steady frequency it is part of k0 and c0",
@@ -115,12 +115,16 @@ impl Effect for TimeDelay {
         vec![vec![-0.02], vec![-0.002], vec![0.002], vec![0.02]]
     }
 
+    fn moves(&self) -> bool {
+        matches!(self, Self::Motion | Self::Drifting)
+    }
+
     fn motion(&self, scene: &Scene, shape: &[f64]) -> Option<Motion> {
         let shifted = |series: &[f64]| match self {
             Self::Drifting => apart(scene, series, shape),
             _ => delayed(scene.step(), series, shape[0]),
         };
-        matches!(self, Self::Motion | Self::Drifting)
+        self.moves()
             .then(|| Motion { displacement: shifted(scene.displacement), velocity: shifted(scene.velocity) })
     }
 

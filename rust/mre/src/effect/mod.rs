@@ -93,7 +93,7 @@ pub struct About {
     pub limit: &'static str,
 }
 
-/// Displacement in mm and velocity in mm/s that the base model sees.
+/// Displacement in mm and velocity in mm/s that a device has.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motion {
     /// mm.
@@ -200,7 +200,13 @@ pub trait Effect: Send + Sync {
         None
     }
 
-    /// Motion that the base model sees.
+    /// True where the device moves otherwise than was measured: the base model and the other effects see
+    /// [`Effect::motion`].
+    fn moves(&self) -> bool {
+        false
+    }
+
+    /// Motion that the device has.
     fn motion(&self, scene: &Scene, shape: &[f64]) -> Option<Motion> {
         let _ = (scene, shape);
         None

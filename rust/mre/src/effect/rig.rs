@@ -127,6 +127,10 @@ impl Effect for Rig {
         Some(Flexibility { size, retardation })
     }
 
+    fn moves(&self) -> bool {
+        true
+    }
+
     fn motion(&self, scene: &Scene, shape: &[f64]) -> Option<Motion> {
         let whole = scene.whole;
         let (force, rate) = match self {

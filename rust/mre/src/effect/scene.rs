@@ -2,6 +2,7 @@
 
 use std::sync::OnceLock;
 
+use super::Motion;
 use crate::recording::{Condition, Past, Recording};
 use crate::velocity;
 
@@ -62,6 +63,11 @@ impl Scene<'_> {
     /// Never true of a recording.
     pub fn is_empty(&self) -> bool {
         self.time.is_empty()
+    }
+
+    /// The same of a device that has another motion than was measured; the acceleration is the measured one.
+    pub fn moved<'s>(&'s self, motion: &'s Motion) -> Scene<'s> {
+        Scene { displacement: &motion.displacement, velocity: &motion.velocity, ..*self }
     }
 
     /// Mean time step, s.

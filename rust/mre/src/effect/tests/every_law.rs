@@ -220,6 +220,17 @@ fn a_magnitude_of_zero_changes_nothing() {
 }
 
 #[test]
+fn what_moves_the_device_says_so() {
+    let stage = stage(7, 4.0);
+    let scene = stage.scene();
+    for effect in CATALOGUE {
+        for start in effect.starts(&stage.sizes) {
+            assert_eq!(effect.moves(), effect.motion(&scene, &start).is_some(), "{:?}", effect.about());
+        }
+    }
+}
+
+#[test]
 fn softening_softens_and_a_lost_share_never_grows_without_recovery() {
     let stage = stage(8, 4.0);
     let scene = stage.scene();
