@@ -39,13 +39,23 @@ def behind_a_fixture(device: Recording, beside: Beside, noise: float = 0.0, seed
 
 
 FIXTURE = Effect("rig_compliance", "spring in series", {"f_r": FLEXIBILITY})
+HARD = 200.0
+"""N/mm, fifteen times the device and three times the fixture."""
+
+
+def hard_stop(x: Series, _v: Series) -> Series:
+    return np.asarray(HARD * np.sign(x) * np.maximum(np.abs(x) - 3.5, 0))
+
+
 LAWS = [
     (square, Effect("quadratic_damping", "square", {"c_2": 0.006})),
     (stop, Effect("end_stop", "both ends", {"k_c": 20.0, "g": 3.0})),
 ]
 
 
-@pytest.mark.parametrize(("beside", "effect"), LAWS)
+@pytest.mark.parametrize(
+    ("beside", "effect"), [*LAWS, (hard_stop, Effect("end_stop", "both ends", {"k_c": HARD, "g": 3.5}))]
+)
 def test_an_effect_has_the_motion_that_a_fixture_leaves_the_device(beside: Beside, effect: Effect) -> None:
     seen = behind_a_fixture(record(1.0, 4.0), beside)
     model = Model("sinh", (Level(None, SINH),), effects=(effect, FIXTURE), sizes=SIZES)
@@ -66,6 +76,29 @@ def test_a_motion_that_is_shown_early_is_so_for_every_effect(beside: Beside, eff
     model = Model("sinh", (Level(None, SINH),), effects=(effect, delay), sizes=SIZES)
     apart = (mre_core.simulate(model, seen) - force)[20:-20]
     assert np.sqrt(np.mean(apart**2)) < 2e-3 * np.std(force)
+
+
+@pytest.mark.parametrize(
+    ("law", "whole"), [("dead zone", False), ("dead zone without damping", True), ("play", True)]
+)
+def test_a_play_of_the_whole_device_is_one_of_all_that_stands_beside_it(law: str, whole: bool) -> None:
+    seen = record(1.0, 4.0)
+    cubic, play = Effect("cubic_stiffness", "cubic", {"k_3": 0.2}), Effect("backlash", law, {"g": 0.5})
+
+    def force(*effects: Effect) -> Series:
+        return mre_core.simulate(Model("sinh", (Level(None, SINH),), effects=effects, sizes=SIZES), seen)
+
+    added = force(cubic, play) - force(play)
+    x = seen.displacement
+    moved = np.zeros(len(x))
+    if law == "play":
+        for i, value in enumerate(x[1:]):
+            moved[i + 1] = np.clip(moved[i], value - 0.5, value + 0.5)
+    else:
+        moved = x - np.clip(x, -0.5, 0.5) if whole else x
+    # Turns of a play are between samples.
+    np.testing.assert_allclose(added, 0.2 * moved**3, atol=0.01 * np.ptp(added))
+    np.testing.assert_array_equal(force(play, cubic), force(cubic, play))
 
 
 def test_both_are_named_with_their_sizes() -> None:

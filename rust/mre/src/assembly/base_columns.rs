@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::base::{Base, Group};
 use super::halves::at_samples;
 use super::layout::Assembly;
-use crate::effect::{Motion, Scene, StateChange};
+use crate::effect::{Effect, Motion, Scene, StateChange};
 use crate::law::Law;
 use crate::physics::Part;
 use crate::recording::Recording;
@@ -144,12 +144,16 @@ impl Assembly<'_> {
             current = effect.current(scene, shape).or(current);
             state = state.into_iter().chain(effect.state_change(scene.sizes, shape)).reduce(StateChange::and);
         }
-        Otherwise { motion: self.motion_of_the_device(scene, shape_of), current, state }
+        Otherwise { motion: self.motion(scene, shape_of, |_| true), current, state }
     }
 
-    /// Motion that the effects leave the device; `None`: that which was measured.
+    /// Motion that the effects leave the device with all that stands beside the base; `None`: that which was measured.
     pub(super) fn motion_of_the_device(&self, scene: &Scene, shape_of: &[&[f64]]) -> Option<Motion> {
-        let moving = self.effects.iter().zip(shape_of).filter(|(effect, _)| effect.moves());
+        self.motion(scene, shape_of, |effect| effect.moves_the_device())
+    }
+
+    fn motion(&self, scene: &Scene, shape_of: &[&[f64]], by: fn(&dyn Effect) -> bool) -> Option<Motion> {
+        let moving = self.effects.iter().zip(shape_of).filter(|(effect, _)| by(**effect));
         moving.fold(None, |so_far: Option<Motion>, (effect, shape)| {
             let moved = so_far.as_ref().map_or(*scene, |motion| scene.moved(motion));
             effect.motion(&moved, shape).or(so_far)

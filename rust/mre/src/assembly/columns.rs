@@ -80,10 +80,19 @@ pub(super) struct Added {
 }
 
 impl Known {
-    pub(super) fn added(&self, effect: &dyn Effect, shape: &[f64], moved: &Moved) -> Option<&Added> {
-        let same = |known: &&Added| known.shape == shape && known.of == effect.about();
-        let fixed = effect.moves() || effect.of_the_measurement();
-        self.effects.iter().find(|known| same(known) && (fixed || known.moved == *moved))
+    fn added(&self, effect: &dyn Effect, shape: &[f64]) -> Option<&Added> {
+        self.effects.iter().find(|known| known.shape == shape && known.of == effect.about())
+    }
+
+    /// The columns of an effect beside what makes the device move otherwise.
+    pub(super) fn columns_of(
+        &self,
+        effect: &dyn Effect,
+        shape: &[f64],
+        moved: &Moved,
+    ) -> Option<&[Vec<Vec<f64>>]> {
+        let same = |known: &&Added| effect.of_the_measurement() || known.moved == *moved;
+        self.added(effect, shape).filter(same).map(|known| known.columns.as_slice())
     }
 }
 
@@ -118,16 +127,11 @@ impl Assembly<'_> {
         let scene = self.scene(r);
         let mut found = Columns { columns: base.columns, places: base.places, given: None, clip: None };
         let mut between = base.between;
-        // Nothing but the base asks for what one alone does to the motion.
-        let several = self.effects.len() > 1;
-        let motion = if several { self.motion_of_the_device(&scene, &shape_of) } else { None };
-        let device = motion.as_ref().map_or(scene, |motion| scene.moved(motion));
-        let moved = self.moved(&shape_of);
         for (effect, shape) in self.effects.iter().zip(&shape_of) {
-            let known = self.known.as_ref().and_then(|known| known.added(*effect, shape, &moved));
+            let known = self.known.as_ref().and_then(|known| known.added(*effect, shape));
             let factors = match known {
                 Some(known) => known.factors[r].as_ref().map(Cow::Borrowed),
-                None => effect.factors(&device, shape).map(Cow::Owned),
+                None => effect.factors(&scene, shape).map(Cow::Owned),
             };
             if let Some(factors) = factors {
                 scale(&factors, &base.parts, &mut found.columns);
@@ -144,7 +148,7 @@ impl Assembly<'_> {
             }
             found.given = Some(force);
         }
-        self.effect_columns(r, (&scene, &device), &shape_of, between, &mut found);
+        self.effect_columns(r, &scene, &shape_of, between, &mut found);
         if let Some(flexibility) = self.flexibility(shapes).filter(|f| f.gives_way()) {
             let whole = &self.whole[r];
             let rig = InSeries::new(&self.campaign.recordings()[r], whole, whole, flexibility);
@@ -153,10 +157,10 @@ impl Assembly<'_> {
         found
     }
 
-    /// What each effect adds at these shapes; taken over where it is known.
+    /// What each effect adds at these shapes.
     pub(super) fn added(&self, shapes: &[f64]) -> Vec<Added> {
         let shape_of = self.shape_of(shapes);
-        let recordings = 0..self.campaign.recordings().len();
+        let recordings = (0..self.campaign.recordings().len()).into_par_iter();
         let of_the_device = |r: usize| self.motion_of_the_device(&self.scene(r), &shape_of);
         let motions: Vec<Option<Motion>> = recordings.clone().map(of_the_device).collect();
         let moved = self.moved(&shape_of);
@@ -165,9 +169,9 @@ impl Assembly<'_> {
                 let measured = self.scene(r);
                 let motion = motions[r].as_ref().filter(|_| !effect.of_the_measurement());
                 let scene = motion.map_or(measured, |motion| measured.moved(motion));
-                (effect.columns(&scene, shape), effect.factors(&scene, shape))
+                (effect.columns(&scene, shape), effect.factors(&measured, shape))
             };
-            let (columns, factors) = recordings.clone().into_par_iter().map(of).unzip();
+            let (columns, factors) = recordings.clone().map(of).unzip();
             Added { of: effect.about(), shape: shape.to_vec(), moved: moved.clone(), columns, factors }
         };
         self.effects.iter().zip(&shape_of).map(of_effect).collect()
@@ -175,7 +179,7 @@ impl Assembly<'_> {
 
     /// What makes the device move otherwise than was measured.
     pub(super) fn moved(&self, shape_of: &[&[f64]]) -> Moved {
-        let moving = self.effects.iter().zip(shape_of).filter(|(effect, _)| effect.moves());
+        let moving = self.effects.iter().zip(shape_of).filter(|(effect, _)| effect.moves_the_device());
         moving.map(|(effect, shape)| (effect.about(), shape.to_vec())).collect()
     }
 
@@ -185,7 +189,7 @@ impl Assembly<'_> {
             known.shapes == shapes[..self.base_shapes()] && self.serves(&known.columns) && {
                 let shape_of = self.shape_of(shapes);
                 let moved = self.moved(&shape_of);
-                self.effects.iter().zip(shape_of).all(|(e, s)| known.added(*e, s, &moved).is_some())
+                self.effects.iter().zip(shape_of).all(|(e, s)| known.columns_of(*e, s, &moved).is_some())
             }
         })
     }

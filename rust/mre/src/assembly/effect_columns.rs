@@ -5,18 +5,21 @@ use super::layout::Assembly;
 use crate::effect::{Effect, Scene};
 
 impl Assembly<'_> {
-    /// What effects add to the force, and channels through which it goes; they see what was `measured`, the device its
-    /// own motion.
+    /// What effects add to the force, and channels through which it goes.
     /// Columns of the base, which come first, may be known `between` the samples as well.
     pub(super) fn effect_columns(
         &self,
         r: usize,
-        (measured, device): (&Scene, &Scene),
+        scene: &Scene,
         shape_of: &[&[f64]],
         mut between: Vec<Vec<f64>>,
         found: &mut Columns,
     ) {
         let moved = self.moved(shape_of);
+        // Nobody asks for what one alone does to the motion but the base.
+        let several = self.effects.len() > moved.len();
+        let motion = if several { self.motion_of_the_device(scene, shape_of) } else { None };
+        let device = &motion.as_ref().map_or(*scene, |motion| scene.moved(motion));
         for (effect, shape, first) in self.placed(shape_of) {
             if !effect.of_the_measurement() {
                 found.add(first, self.own_columns(effect, shape, (r, device), &moved));
@@ -25,9 +28,9 @@ impl Assembly<'_> {
         for (effect, shape) in self.effects.iter().zip(shape_of) {
             let mut passed = false;
             for (i, column) in found.columns.iter_mut().chain(&mut found.given).enumerate() {
-                let fine = between.get(i).and_then(|halves| effect.through_halves(measured, shape, halves));
-                if let Some(passed_on) = fine.or_else(|| effect.through(measured, shape, column)) {
-                    *column = passed_on;
+                let fine = between.get(i).and_then(|halves| effect.through_halves(scene, shape, halves));
+                if let Some(measured) = fine.or_else(|| effect.through(scene, shape, column)) {
+                    *column = measured;
                     passed = true;
                 }
             }
@@ -79,7 +82,7 @@ impl Assembly<'_> {
         (r, scene): (usize, &Scene),
         moved: &Moved,
     ) -> Vec<Vec<f64>> {
-        let known = self.known.as_ref().and_then(|known| known.added(effect, shape, moved));
-        known.map_or_else(|| effect.columns(scene, shape), |known| known.columns[r].clone())
+        let known = self.known.as_ref().and_then(|known| known.columns_of(effect, shape, moved));
+        known.map_or_else(|| effect.columns(scene, shape), |known| known[r].clone())
     }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::campaign::Campaign;
 use super::in_series::InSeries;
 use crate::device::Device;
-use crate::effect::{Effect, Factors, Flexibility, Scene, Sizes};
+use crate::effect::{Effect, Factors, Flexibility, Motion, Scene, Sizes};
 use crate::error::{Error, Result};
 use crate::kernel::filter::dot;
 use crate::physics::Part;
@@ -88,12 +88,17 @@ pub fn simulate(
     if let Some(flexibility) = flexibility {
         let mut known = InSeries::first(recording, &alone, flexibility);
         force = pass(&known)?;
+        // A stop is far stiffer than the device is on average: whole steps would go to and fro.
+        let (mut step, mut last) = (1.0, f64::INFINITY);
         for _ in 0..PASSES {
             let better = InSeries::new(recording, &known, &force, flexibility).nearer(&known, &force);
-            if distance(&known, &better) <= AGREED {
+            let apart = distance(&known, &better);
+            if apart <= AGREED {
                 break;
             }
-            known = better;
+            step = if apart > last { 0.5 * step } else { step };
+            last = apart;
+            known.iter_mut().zip(better).for_each(|(known, better)| *known += step * (better - *known));
             force = pass(&known)?;
         }
         let left = distance(&known, &force);
@@ -116,10 +121,17 @@ pub fn simulate(
 /// The force where the effects see a scene.
 fn pass(source: Source, additions: &[Addition], recording: &Recording, scene: &Scene) -> Result<Vec<f64>> {
     let mut seen = recording.clone();
+    let mut factors: Vec<Factors> = Vec::new();
+    let mut device: Option<Motion> = None;
     for Addition { effect, shape, .. } in additions {
         let mut own = *scene;
         (own.displacement, own.velocity) = (seen.displacement(), seen.velocity());
         let (motion, current) = (effect.motion(&own, shape), effect.current(&own, shape));
+        factors.extend(effect.factors(scene, shape));
+        if effect.moves_the_device() {
+            let moved = device.as_ref().map_or(*scene, |device| scene.moved(device));
+            device = effect.motion(&moved, shape).or(device);
+        }
         if motion.is_some() || current.is_some() {
             let (x, v) = motion.map_or_else(
                 || (own.displacement.to_vec(), own.velocity.to_vec()),
@@ -129,9 +141,6 @@ fn pass(source: Source, additions: &[Addition], recording: &Recording, scene: &S
         }
         seen = seen.with_state_changed(effect.state_change(scene.sizes, shape));
     }
-    let device = Scene { displacement: seen.displacement(), velocity: seen.velocity(), ..*scene };
-    let factors: Vec<Factors> =
-        additions.iter().filter_map(|added| added.effect.factors(&device, &added.shape)).collect();
     let mut force = vec![0.0; recording.len()];
     for (part, column) in source.parts(&seen)? {
         for (i, value) in column.into_iter().enumerate() {
@@ -139,9 +148,10 @@ fn pass(source: Source, additions: &[Addition], recording: &Recording, scene: &S
             force[i] += share * value;
         }
     }
+    let moved = device.as_ref().map_or(*scene, |device| scene.moved(device));
     for Addition { effect, coefficients, shape } in additions {
         if !effect.of_the_measurement() {
-            for (c, column) in coefficients.iter().zip(effect.columns(&device, shape)) {
+            for (c, column) in coefficients.iter().zip(effect.columns(&moved, shape)) {
                 for (f, value) in force.iter_mut().zip(column) {
                     *f += c * value;
                 }

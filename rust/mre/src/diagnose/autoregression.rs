@@ -44,10 +44,16 @@ impl Products {
                 lags[(i, j)] = lags[(j, i)];
             }
         }
-        for i in 0..=p {
+        Self { lags, rows: (n - p) as f64 }
+    }
+
+    /// The same with a white noise of a share of the mean square.
+    pub(super) fn with_a_floor(&self) -> Self {
+        let mut lags = self.lags.clone();
+        for i in 0..lags.nrows() {
             lags[(i, i)] *= 1.0 + FLOOR;
         }
-        Self { lags, rows: (n - p) as f64 }
+        Self { lags, rows: self.rows }
     }
 
     pub(super) fn order(&self) -> usize {

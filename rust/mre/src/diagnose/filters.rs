@@ -31,17 +31,18 @@ pub(super) fn filters(
     freedom: usize,
     left_out: &[LeftOut],
 ) -> (Vec<Filter>, Vec<Gaps>) {
-    let products: Vec<Products> = residuals
+    let bare: Vec<Products> = residuals
         .par_iter()
         .zip(steps)
         .map(|(e, step)| Products::of(&without_hum(e, *step), *step))
         .collect();
+    let products: Vec<Products> = bare.iter().map(Products::with_a_floor).collect();
     let total: usize = residuals.iter().map(Vec::len).sum();
     let mut filters: Vec<Option<Filter>> = vec![None; residuals.len()];
     let mut gaps = vec![Gaps::none(); residuals.len()];
     let of_rate =
         |r: usize| (0..residuals.len()).filter(move |s| (steps[*s] / steps[r] - 1.0).abs() < SAME_RATE);
-    let odd = (0..residuals.len()).find_map(|r| beside_the_odd(&products, &of_rate(r).collect::<Vec<_>>()));
+    let odd = (0..residuals.len()).find_map(|r| beside_the_odd(&bare, &of_rate(r).collect::<Vec<_>>()));
     if let Some((r, others)) = odd {
         let share = freedom as f64 * residuals[r].len() as f64 / total as f64;
         let (filter, gap) = Filter::of(&residuals[r], steps[r], &others, share, &left_out[r]);
@@ -93,8 +94,9 @@ fn beside_the_odd(products: &[Products], recordings: &[usize]) -> Option<(usize,
 impl Filter {
     fn of(residual: &[f64], step: f64, choice: &Choice, used: f64, left_out: &LeftOut) -> (Self, Gaps) {
         let coefficients = choice.coefficients.clone();
-        let square = dot(residual, residual) / residual.len() as f64;
-        let mut errors = prediction_error(&without_hum(residual, step), &coefficients, 1.0);
+        let calm = without_hum(residual, step);
+        let square = dot(&calm, &calm) / calm.len() as f64;
+        let mut errors = prediction_error(&calm, &coefficients, 1.0);
         let gaps = left_out.gaps_of_the_scored(&coefficients, 1.0);
         gaps.leave_out(&mut errors);
         let left = (errors.len() as f64 - used - gaps.count() as f64).max(0.5 * errors.len() as f64);

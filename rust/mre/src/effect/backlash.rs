@@ -177,8 +177,9 @@ impl Effect for Backlash {
         }
     }
 
-    fn moves(&self) -> bool {
-        true
+    /// Elsewhere the gap is one of the spring.
+    fn moves_the_device(&self) -> bool {
+        matches!(self, Self::FreeDeadZone | Self::FreeOffCentre | Self::Play)
     }
 
     fn motion(&self, scene: &Scene, shape: &[f64]) -> Option<Motion> {

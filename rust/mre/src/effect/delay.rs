@@ -115,7 +115,7 @@ impl Effect for TimeDelay {
         vec![vec![-0.02], vec![-0.002], vec![0.002], vec![0.02]]
     }
 
-    fn moves(&self) -> bool {
+    fn moves_the_device(&self) -> bool {
         matches!(self, Self::Motion | Self::Drifting)
     }
 
@@ -124,7 +124,7 @@ impl Effect for TimeDelay {
             Self::Drifting => apart(scene, series, shape),
             _ => delayed(scene.step(), series, shape[0]),
         };
-        self.moves()
+        self.moves_the_device()
             .then(|| Motion { displacement: shifted(scene.displacement), velocity: shifted(scene.velocity) })
     }
 

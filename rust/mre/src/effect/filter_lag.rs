@@ -121,14 +121,14 @@ impl Effect for FilterLag {
         }
     }
 
-    fn moves(&self) -> bool {
+    fn moves_the_device(&self) -> bool {
         *self == Self::Displacement
     }
 
     fn motion(&self, scene: &Scene, shape: &[f64]) -> Option<Motion> {
         let ahead =
             |series: &[f64], rate: &[f64]| series.iter().zip(rate).map(|(x, v)| x + shape[0] * v).collect();
-        self.moves().then(|| Motion {
+        self.moves_the_device().then(|| Motion {
             displacement: ahead(scene.displacement, scene.velocity),
             velocity: ahead(scene.velocity, scene.acceleration.get()),
         })

@@ -5,7 +5,8 @@
 //! | m | moving mass | kg | >= 0 |
 //!
 //! The column is the acceleration in m/s^2, so that the mass comes out in kg and the force in N.
-//! Known limit: at one steady frequency it is part of k0, at any number of amplitudes.
+//! Known limits: at one steady frequency it is part of k0, at any number of amplitudes; behind a fixture that gives way, or with
+//! a late displacement, the acceleration is the measured one.
 
 use super::operators::each;
 use super::{About, Effect, Scene, Sizes, positive};

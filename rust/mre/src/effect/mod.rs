@@ -93,7 +93,7 @@ pub struct About {
     pub limit: &'static str,
 }
 
-/// Displacement in mm and velocity in mm/s that a device has.
+/// Displacement in mm and velocity in mm/s that the base model sees.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motion {
     /// mm.
@@ -200,13 +200,12 @@ pub trait Effect: Send + Sync {
         None
     }
 
-    /// True where the device moves otherwise than was measured: the base model and the other effects see
-    /// [`Effect::motion`].
-    fn moves(&self) -> bool {
+    /// True where what the base model sees is the motion of the whole device: other effects add forces in it too.
+    fn moves_the_device(&self) -> bool {
         false
     }
 
-    /// Motion that the device has.
+    /// Motion that the base model sees.
     fn motion(&self, scene: &Scene, shape: &[f64]) -> Option<Motion> {
         let _ = (scene, shape);
         None

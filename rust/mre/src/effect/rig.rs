@@ -127,7 +127,7 @@ impl Effect for Rig {
         Some(Flexibility { size, retardation })
     }
 
-    fn moves(&self) -> bool {
+    fn moves_the_device(&self) -> bool {
         true
     }
 

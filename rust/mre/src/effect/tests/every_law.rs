@@ -220,12 +220,15 @@ fn a_magnitude_of_zero_changes_nothing() {
 }
 
 #[test]
-fn what_moves_the_device_says_so() {
+fn what_moves_the_device_has_a_motion() {
     let stage = stage(7, 4.0);
     let scene = stage.scene();
     for effect in CATALOGUE {
         for start in effect.starts(&stage.sizes) {
-            assert_eq!(effect.moves(), effect.motion(&scene, &start).is_some(), "{:?}", effect.about());
+            let moved = effect.motion(&scene, &start);
+            assert!(moved.is_some() || !effect.moves_the_device(), "{:?}", effect.about());
+            // Nothing of its own is seen in the motion that it makes.
+            assert!(moved.is_none() || effect.coefficients().is_empty(), "{:?}", effect.about());
         }
     }
 }
