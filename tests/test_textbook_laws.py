@@ -80,13 +80,6 @@ def beside_the_middle(r: Recording) -> NDArray[np.float64]:
     return np.asarray(seen[0] - seen[1] - 0.4 * np.where(within, r.velocity, 0.0))
 
 
-def lined(r: Recording) -> NDArray[np.float64]:
-    """A spring that stiffens more sees a fifth of the motion within 0.8 mm."""
-    x = r.displacement
-    seen = x - 0.8 * np.clip(x, -0.8, 0.8)
-    return np.asarray(4 * seen + 4 * np.sinh(0.7 * seen) - 8 * x - 10 * np.sinh(0.3 * x))
-
-
 def rebound(r: Recording) -> NDArray[np.float64]:
     """A valve that damps more one way, by 0.05 N s/mm."""
     return np.asarray(0.05 * np.abs(r.velocity))
@@ -98,7 +91,6 @@ def rebound(r: Recording) -> NDArray[np.float64]:
         (bristles, ("stribeck_friction", "LuGre"), {"F_c": 2, "r": 1, "v_s": 8, "z_y": 0.1}),
         (loose, ("backlash", "spring with a dead zone"), {"k_g": 2, "g": 0.3}),
         (beside_the_middle, ("backlash", "dead zone off centre, without damping"), {"g": 0.2, "c": 0.8}),
-        (lined, ("backlash", "dead zone with a lining"), {"g": 0.8, "s": 0.2}),
         (dragging, ("backlash", "play of the spring"), {"g": 0.15}),
         (slider, ("coulomb_friction", "elastic slider"), {"F_c": 2, "z_y": 0.06}),
         (contact, ("end_stop", "both ends with damping"), {"k_c": 6, "c_c": 0.15, "g": 3}),

@@ -14,7 +14,7 @@ const LONGEST: usize = 100;
 const SAMPLES_EACH: usize = 25;
 /// White noise beside every other, as a share of its mean square: behind a filter of the recorder there is next to none at some
 /// frequencies, and no law, slope or number is so exact.
-pub(super) const FLOOR: f64 = 1e-4;
+pub(super) const FLOOR: f64 = 1e-5;
 /// Orders that are compared, as shares of the longest.
 const ORDERS: [f64; 6] = [0.0, 0.05, 0.12, 0.25, 0.5, 1.0];
 

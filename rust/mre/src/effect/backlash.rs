@@ -4,7 +4,6 @@
 //! |---|---|---|---|
 //! | g | half the free play | mm | 0.04 % of the largest stroke, or three times the noise of the displacement, to half of the stroke |
 //! | c | its middle | mm | half the largest stroke to either side |
-//! | s | share of the motion that a lining passes on within it | - | 0.02 to 0.35 |
 //!
 //! Reference: Nordin and Gutman, Automatica 38 (2002) 1633.
 //! Known limit: where g is small against all strokes only the jumps at reversals show it. The middle is sought on both sides
@@ -21,8 +20,6 @@ pub(super) enum Backlash {
     DeadZone,
     /// The same with round edges.
     RoundDeadZone,
-    /// A soft lining fills the gap.
-    Lined,
     /// No force at all within the gap.
     FreeDeadZone,
     /// The spring is held in its middle within a gap that is elsewhere.
@@ -51,11 +48,6 @@ const ABOVE: f64 = 1.2;
 /// Gaps and their middles that are tried, over the largest displacement.
 const GAPS: [f64; 4] = [0.01, 0.03, 0.08, 0.2];
 const MIDDLES: [f64; 4] = [-0.3, -0.1, 0.1, 0.3];
-
-/// Shares that a lining passes on: a stiffer one is no play.
-const LINING: [f64; 2] = [0.02, 0.35];
-const LININGS: [f64; 2] = [0.1, 0.25];
-const LINED_GAPS: [f64; 4] = [0.02, 0.06, 0.16, 0.35];
 
 const OFF_CENTRE: &str = "there is free play: at a place beside the middle the device is not moved";
 
@@ -107,12 +99,6 @@ impl Effect for Backlash {
                 equation: "the device sees x - g tanh(x/g) and its velocity",
                 ..dead_zone
             },
-            Self::Lined => About {
-                law: "dead zone with a lining",
-                plain: "there is free play: near the middle the device is hardly loaded",
-                equation: "the device sees x - (1 - s) min(max(x, -g), g)",
-                ..dead_zone
-            },
             Self::FreeDeadZone => About {
                 law: "dead zone without damping",
                 equation: "the device sees x - min(max(x, -g), g) and its velocity",
@@ -150,7 +136,6 @@ impl Effect for Backlash {
         let gap = Parameter { smallest: 0.0, ..within("g", "mm", least(sizes), half) };
         match self {
             Self::OffCentre | Self::FreeOffCentre => vec![gap, within("c", "mm", -half, half)],
-            Self::Lined => vec![gap, within("s", "", LINING[0], LINING[1])],
             _ => vec![gap],
         }
     }
@@ -158,7 +143,6 @@ impl Effect for Backlash {
     fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
         let shares: Vec<f64> = match self {
             Self::OffCentre | Self::FreeOffCentre => GAPS.to_vec(),
-            Self::Lined => LINED_GAPS.to_vec(),
             Self::DeadZone | Self::RoundDeadZone => vec![0.003, 0.01, 0.03, 0.08, 0.16, 0.3],
             // One of twice the right size explains nothing, and the fit jumps from sample to sample.
             Self::FreeDeadZone | Self::Play | Self::SpringPlay => {
@@ -172,7 +156,6 @@ impl Effect for Backlash {
         let off_centre = |g: f64| MIDDLES.map(|c| vec![g, c * size]);
         match self {
             Self::OffCentre | Self::FreeOffCentre => gaps.into_iter().flat_map(off_centre).collect(),
-            Self::Lined => gaps.into_iter().flat_map(|g| LININGS.map(|s| vec![g, s])).collect(),
             _ => gaps.into_iter().map(|g| vec![g]).collect(),
         }
     }
@@ -187,13 +170,12 @@ impl Effect for Backlash {
         let displacement = match self {
             Self::DeadZone | Self::FreeDeadZone => each(x, |x| beyond(x, g)),
             Self::RoundDeadZone => each(x, |x| x - round(x, g)),
-            Self::Lined => each(x, |x| x - (1.0 - shape[1]) * x.clamp(-g, g)),
             Self::OffCentre | Self::FreeOffCentre => each(x, |x| x - (x - shape[1]).clamp(-g, g)),
             Self::Play | Self::SpringPlay => dragged(scene, g),
         };
         let moving = |i: usize| match self {
             Self::RoundDeadZone if g > 0.0 => ((x[i] - displacement[i]) / g).powi(2),
-            Self::DeadZone | Self::RoundDeadZone | Self::Lined | Self::OffCentre | Self::SpringPlay => 1.0,
+            Self::DeadZone | Self::RoundDeadZone | Self::OffCentre | Self::SpringPlay => 1.0,
             Self::FreeDeadZone => f64::from(displacement[i] != 0.0),
             Self::FreeOffCentre => f64::from((x[i] - shape[1]).abs() > g),
             // At one end of the gap.

@@ -385,7 +385,6 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &Backlash::DeadZone,
     &Backlash::RoundDeadZone,
     &Backlash::FreeDeadZone,
-    &Backlash::Lined,
     &Backlash::OffCentre,
     &Backlash::FreeOffCentre,
     &Backlash::Play,

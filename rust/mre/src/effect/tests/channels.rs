@@ -152,18 +152,6 @@ fn free_play_removes_its_gap() {
 }
 
 #[test]
-fn a_lining_passes_its_share_of_the_motion_on() {
-    let stage = Stage::sine(2.0, 1.0, 2.0);
-    let scene = stage.scene();
-    let seen = law("backlash", "dead zone with a lining").motion(&scene, &[0.4, 0.25]).unwrap();
-    for (seen, x) in seen.displacement.iter().zip(scene.displacement) {
-        let within = 0.25 * x.abs().min(0.4);
-        close(seen.abs(), within + (x.abs() - 0.4).max(0.0), 1e-12);
-    }
-    assert_eq!(seen.velocity, scene.velocity);
-}
-
-#[test]
 fn a_spring_beside_the_device_has_no_force_within_its_gap() {
     let stage = Stage::sine(2.0, 1.0, 2.0);
     let force = column("backlash", "spring with a dead zone", &stage.scene(), &[0.5]);
