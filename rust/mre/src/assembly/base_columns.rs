@@ -153,12 +153,20 @@ impl Assembly<'_> {
     }
 
     fn motion(&self, scene: &Scene, shape_of: &[&[f64]], by: fn(&dyn Effect) -> bool) -> Option<Motion> {
-        let moving = self.effects.iter().zip(shape_of).filter(|(effect, _)| by(**effect));
-        moving.fold(None, |so_far: Option<Motion>, (effect, shape)| {
-            let moved = so_far.as_ref().map_or(*scene, |motion| scene.moved(motion));
-            effect.motion(&moved, shape).or(so_far)
-        })
+        let effects = self.effects.iter().zip(shape_of).map(|(effect, shape)| (*effect, *shape));
+        left_by(scene, effects.filter(|(effect, _)| by(*effect)))
     }
+}
+
+/// Motion that effects with their shapes leave one after the other; `None`: that which was measured.
+pub(super) fn left_by<'e>(
+    scene: &Scene,
+    effects: impl Iterator<Item = (&'static dyn Effect, &'e [f64])>,
+) -> Option<Motion> {
+    effects.fold(None, |so_far: Option<Motion>, (effect, shape)| {
+        let moved = so_far.as_ref().map_or(*scene, |motion| scene.moved(motion));
+        effect.motion(&moved, shape).or(so_far)
+    })
 }
 
 /// Columns of a model that is fitted in groups.

@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
+use super::base_columns::left_by;
 use super::campaign::Campaign;
 use super::in_series::InSeries;
 use crate::device::Device;
-use crate::effect::{Effect, Factors, Flexibility, Motion, Scene, Sizes};
+use crate::effect::{Effect, Factors, Flexibility, Scene, Sizes};
 use crate::error::{Error, Result};
 use crate::kernel::filter::dot;
 use crate::physics::Part;
@@ -122,16 +123,11 @@ pub fn simulate(
 fn pass(source: Source, additions: &[Addition], recording: &Recording, scene: &Scene) -> Result<Vec<f64>> {
     let mut seen = recording.clone();
     let mut factors: Vec<Factors> = Vec::new();
-    let mut device: Option<Motion> = None;
     for Addition { effect, shape, .. } in additions {
         let mut own = *scene;
         (own.displacement, own.velocity) = (seen.displacement(), seen.velocity());
         let (motion, current) = (effect.motion(&own, shape), effect.current(&own, shape));
         factors.extend(effect.factors(scene, shape));
-        if effect.moves_the_device() {
-            let moved = device.as_ref().map_or(*scene, |device| scene.moved(device));
-            device = effect.motion(&moved, shape).or(device);
-        }
         if motion.is_some() || current.is_some() {
             let (x, v) = motion.map_or_else(
                 || (own.displacement.to_vec(), own.velocity.to_vec()),
@@ -148,6 +144,8 @@ fn pass(source: Source, additions: &[Addition], recording: &Recording, scene: &S
             force[i] += share * value;
         }
     }
+    let moving = additions.iter().filter(|added| added.effect.moves_the_device());
+    let device = left_by(scene, moving.map(|added| (added.effect, added.shape.as_slice())));
     let moved = device.as_ref().map_or(*scene, |device| scene.moved(device));
     for Addition { effect, coefficients, shape } in additions {
         if !effect.of_the_measurement() {
