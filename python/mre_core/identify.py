@@ -18,7 +18,7 @@ from .minimise import draw_seed
 from .model import Level, Model
 from .results import StopReason, SwarmResult
 from .slopes import left_by_fit, warn_of_velocities
-from .suitable import check_force, samples_of
+from .suitable import check_force, check_velocities, samples_of
 from .swarms import afsa, mafsa, pso
 from .tested import largest_motion
 from .uncertainty import Uncertainty, uncertainty
@@ -94,6 +94,7 @@ def identify(
     check_once(everything)
     for recording in everything:
         check_force(recording)
+    check_velocities(everything)
     shares = _shares(weights, everything, [members for _, members in groups])
     problems = [
         Problem(members, name, bounds, weights=share)

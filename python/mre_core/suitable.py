@@ -13,8 +13,12 @@ _AGAINST = -0.5
 _GIVES = -0.1
 """Correlation of force and rate of displacement below which a device gives out energy; of several recordings,
 one at least of those that all do."""
+_COVERED = (0.2, 5.0)
+"""Shares of the way of the displacement that a velocity in its own unit covers."""
 _ROUGHER = 3.0
 """A force that is so many times as rough as the displacement is in its own column."""
+_RESTS = 0.1
+"""Recordings that move less than this share of the others, by their rms, say little of their velocity."""
 _SMOOTH = 4
 """Order of the differences that show how rough a series is."""
 _JUMPS = 1.5
@@ -41,7 +45,8 @@ def check_recordings(recordings: Sequence[Recording], parameters: int) -> None:
     ------
     InputError
         A recording without force, with a force that never changes, with signs that cannot agree or columns
-        that are swapped; no full cycle of motion in any; too few samples.
+        that are swapped, with a velocity that is not the displacement's; no full cycle of motion in any; too
+        few samples.
     """
     energies = []
     for recording in recordings:
@@ -64,6 +69,7 @@ def check_recordings(recordings: Sequence[Recording], parameters: int) -> None:
             "force and displacement in their own columns, not swapped, with agreeing signs, and no time lag"
             " of one channel behind the other",
         )
+    check_velocities(recordings)
     if not any(_has_cycle(_scored(recording)[0]) for recording in recordings):
         raise _wrong(recordings[0], "there is less than one cycle of motion", "at least one full cycle")
     samples = samples_of(recordings)
@@ -93,6 +99,49 @@ def check_force(recording: Recording) -> NDArray[np.float64]:
             recording, f"the force is {force[0]:.6g} N throughout", "a force that changes with the motion"
         )
     return force
+
+
+def check_velocities(recordings: Sequence[Recording]) -> None:
+    """Refuse a velocity of the wrong sign or unit.
+
+    Raises
+    ------
+    InputError
+        Its integral, mm, is not the displacement, by its sign or by far.
+    """
+    ways = [_ways(recording) for recording in recordings]
+    largest = max(moved.std() for moved, _ in ways)
+    for recording, (moved, covered) in zip(recordings, ways, strict=True):
+        if moved.std() <= _RESTS * largest:
+            continue
+        share = float(moved @ covered) / float(moved @ moved)
+        if share < _AGAINST * np.sqrt(float(covered @ covered) / float(moved @ moved)):
+            raise _wrong(
+                recording,
+                f"velocity and displacement have opposite signs ({share:.3g} times the way is covered)",
+                "the rate of the displacement: turn the sign of one of them, or leave the velocity out",
+            )
+        if not _COVERED[0] < share < _COVERED[1]:
+            raise _wrong(
+                recording,
+                f"the velocity covers {share:.3g} times the way of the displacement",
+                "the rate of the displacement in its unit, or no velocity: it is derived then",
+            )
+
+
+def _ways(recording: Recording) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Displacement and integral of the velocity over the samples that count, mm, without lines.
+
+    An offset of a velocity is a line in its integral.
+    """
+    scored = slice(*recording.scored)
+    t, x, v = recording.time[scored], recording.displacement[scored], recording.velocity[scored]
+    covered = np.concatenate([[0.0], np.cumsum((v[1:] + v[:-1]) / 2 * np.diff(t))])
+    lines = np.stack([np.ones_like(t), t - t[0]], axis=1)
+    moved, covered = (
+        series - lines @ np.linalg.lstsq(lines, series, rcond=None)[0] for series in (x, covered)
+    )
+    return moved, covered
 
 
 def _scored(recording: Recording) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

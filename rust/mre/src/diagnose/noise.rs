@@ -107,6 +107,19 @@ impl Noise {
         white
     }
 
+    /// True where both whiten the same samples.
+    pub(super) fn keeps_the_samples_of(&self, other: &Self) -> bool {
+        (0..self.filters.len()).all(|r| self.lost(r) == other.lost(r))
+    }
+
+    /// Logarithm of the determinant of its covariance, of so many whitened samples of each recording, N^2.
+    pub(super) fn logarithm_of_covariance(&self, samples: impl Fn(usize) -> usize) -> f64 {
+        let of = |(r, filter): (usize, &Filter)| {
+            -2.0 * (samples(r) as f64 * filter.scale.ln() + self.wander[r].logarithm_of_shares())
+        };
+        self.filters.iter().enumerate().map(of).sum()
+    }
+
     /// One realisation of the noise of a recording, N.
     pub(super) fn realisation(&self, r: usize, count: usize, stream: &mut ChaCha8Rng) -> Vec<f64> {
         let (coefficients, deviation) = self.autoregression(r);

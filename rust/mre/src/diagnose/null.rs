@@ -14,6 +14,7 @@ use super::tangents::{products, tangents_at};
 use crate::assembly::Assembly;
 use crate::effect::{Effect, Scene};
 use crate::kernel::filter::dot;
+use crate::parameter::Parameter;
 
 /// Orthogonal complement of the tangents of a fitted model, by recording.
 pub(super) struct Null<'a> {
@@ -74,8 +75,11 @@ impl<'a> Null<'a> {
         for (i, known) in assembly.known_of_coefficients().into_iter().enumerate() {
             gram[(i, i)] += known;
         }
+        // A coefficient that a limit holds against the residual takes nothing off it.
+        let held = held_by_a_limit(&assembly, &point.fitted.coefficients, &right);
+        let free = |i: usize| gram[(i, i)] > 0.0 && !held.get(i).is_some_and(|held| *held);
         let scale: Vec<f64> =
-            (0..count).map(|i| if gram[(i, i)] > 0.0 { 1.0 / gram[(i, i)].sqrt() } else { 0.0 }).collect();
+            (0..count).map(|i| if free(i) { 1.0 / gram[(i, i)].sqrt() } else { 0.0 }).collect();
         let scaled = DMatrix::from_fn(count, count, |i, j| {
             let unit = if i == j { 1e-11 + f64::from(u8::from(scale[i] == 0.0)) } else { 0.0 };
             gram[(i, j)] * scale[i] * scale[j] + unit
@@ -236,4 +240,12 @@ impl<'a> Null<'a> {
     pub(super) fn shapes(&self) -> Vec<f64> {
         self.assembly.physical(&self.point.fitted.unit)
     }
+}
+
+/// Which coefficients stand at a limit that the residual would have them pass.
+fn held_by_a_limit(assembly: &Assembly, coefficients: &[f64], right: &DVector<f64>) -> Vec<bool> {
+    let held = |((limits, value), right): ((&Parameter, &f64), &f64)| {
+        (*value <= limits.smallest && *right < 0.0) || (*value >= limits.largest && *right > 0.0)
+    };
+    assembly.coefficients().iter().zip(coefficients).zip(right.iter()).map(held).collect()
 }

@@ -71,6 +71,11 @@ impl Wander {
         }
     }
 
+    /// Logarithm of what is left of a volume where it is calmed.
+    pub(super) fn logarithm_of_shares(&self) -> f64 {
+        self.shares.iter().map(|share| (-share).ln_1p()).sum()
+    }
+
     /// Add one realisation to a series, N.
     pub(super) fn add_to(&self, series: &mut [f64], stream: &mut ChaCha8Rng) {
         for wave in self.waves(series.len()) {
