@@ -79,6 +79,7 @@ mod unknown;
 mod unnamed;
 mod verdict;
 mod wander;
+mod weights;
 mod worth;
 
 pub use absorbed::Absorbed;

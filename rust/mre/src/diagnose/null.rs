@@ -36,10 +36,25 @@ pub(super) struct Null<'a> {
     more: Vec<Change>,
     /// Of the scaled tangents.
     strays: Strays,
+    /// What whitened samples are multiplied with, by recording, where the noise's size follows the motion.
+    weights: Option<Vec<Vec<f64>>>,
 }
 
 impl<'a> Null<'a> {
     pub(super) fn new(assembly: &Assembly<'a>, data: Data<'a>, unit: &[f64]) -> Option<Self> {
+        let even = Self::weighted(assembly, data, unit, None)?;
+        match even.weights_over_the_motion() {
+            None => Some(even),
+            weights => Self::weighted(assembly, data, unit, weights),
+        }
+    }
+
+    fn weighted(
+        assembly: &Assembly<'a>,
+        data: Data<'a>,
+        unit: &[f64],
+        weights: Option<Vec<Vec<f64>>>,
+    ) -> Option<Self> {
         if data.monitor.broken_off() {
             return None;
         }
@@ -47,7 +62,11 @@ impl<'a> Null<'a> {
         let mut point = Point::at(&assembly, data, unit.to_vec());
         let known = point.fitted.coefficients.len() + unit.len();
         let (mut shaken, more) = Shaken::of(&assembly, data, &point);
-        let tangents = tangents_at(&assembly, data, &mut point, known);
+        let mut tangents = tangents_at(&assembly, data, &mut point, known);
+        for (r, weights) in weights.iter().flatten().enumerate() {
+            weigh(&mut point.recordings[r].residual, weights);
+            tangents[r].iter_mut().for_each(|(_, tangent)| weigh(tangent, weights));
+        }
         let last = tangents.iter().flatten().map(|(place, _)| place + 1).max();
         let count = last.unwrap_or(0).max(known);
         let mut gram = DMatrix::<f64>::zeros(count, count);
@@ -98,7 +117,21 @@ impl<'a> Null<'a> {
         let squares: f64 = draws.clone().map(square).sum();
         let share = squares / (samples * draws.count()).max(1) as f64;
         let strays = Strays::new(strays, share);
-        Some(Self { assembly, data, point, tangents, factor, scale, right, tame, shaken, bias, more, strays })
+        Some(Self {
+            assembly,
+            data,
+            point,
+            tangents,
+            factor,
+            scale,
+            right,
+            tame,
+            shaken,
+            bias,
+            more,
+            strays,
+            weights,
+        })
     }
 
     /// What draws of the noise of the motions do to the force.
@@ -109,6 +142,16 @@ impl<'a> Null<'a> {
     /// The model on motions with more of their noise.
     pub(super) fn shaken_views(&self) -> impl Iterator<Item = View<'_, 'a>> {
         self.shaken.iter().map(Shaken::view)
+    }
+
+    /// What whitened samples of a recording are multiplied with, where the noise's size follows the motion.
+    pub(super) fn weights(&self, r: usize) -> Option<&[f64]> {
+        self.weights.as_ref().map(|all| all[r].as_slice())
+    }
+
+    /// True where noise of the motions changes the force.
+    pub(super) fn is_shaken(&self) -> bool {
+        self.changes().next().is_some()
     }
 
     /// True where the search was broken off.
@@ -177,7 +220,11 @@ impl<'a> Null<'a> {
         let here = self.view();
         let there: Vec<View> = shaken.iter().map(Shaken::view).collect();
         let white = |r: usize, (i, series): (usize, Vec<f64>)| {
-            (i, whitened(self.data.noise, r, &self.data.rows[r], &series))
+            let mut white = whitened(self.data.noise, r, &self.data.rows[r], &series);
+            if let Some(weights) = self.weights(r) {
+                weigh(&mut white, weights);
+            }
+            (i, white)
         };
         for (r, local) in self.point.recordings.iter().enumerate() {
             let own: Vec<(usize, Vec<f64>)> = columns(&here, r).into_iter().map(|c| white(r, c)).collect();
@@ -248,4 +295,8 @@ fn held_by_a_limit(assembly: &Assembly, coefficients: &[f64], right: &DVector<f6
         (*value <= limits.smallest && *right < 0.0) || (*value >= limits.largest && *right > 0.0)
     };
     assembly.coefficients().iter().zip(coefficients).zip(right.iter()).map(held).collect()
+}
+
+fn weigh(series: &mut [f64], weights: &[f64]) {
+    series.iter_mut().zip(weights).for_each(|(value, weight)| *value *= weight);
 }

@@ -44,8 +44,11 @@ impl Scanned {
         let first = start.checked_sub(coefficients.len())?;
         let filter: Vec<f64> =
             [1.0].into_iter().chain(coefficients.iter().map(|a| -a)).map(|a| a / deviation).collect();
+        let weights = null.weights(r);
+        let weight = |i: usize| weights.map_or(1.0, |weights| weights[i]);
+        let even = (0..left.len()).map(|i| weight(i).powi(2)).sum::<f64>() / left.len().max(1) as f64;
         let mut backwards = vec![0.0; end - first];
-        for (i, e) in left.iter().enumerate() {
+        for (i, e) in left.iter().enumerate().map(|(i, e)| (i, weight(i) * e)) {
             for (k, a) in filter.iter().enumerate() {
                 backwards[start - first + i - k] += a * e;
             }
@@ -56,7 +59,9 @@ impl Scanned {
         let (last, taps) = (carrier.len(), filter.len());
         let lags = (0..taps.min(last)).map(|lag| {
             let twice = if lag == 0 { 1.0 } else { 2.0 };
-            twice * dot(&filter[lag..], &filter[..taps - lag]) * dot(&carrier[lag..], &carrier[..last - lag])
+            even * twice
+                * dot(&filter[lag..], &filter[..taps - lag])
+                * dot(&carrier[lag..], &carrier[..last - lag])
         });
         let lags = lags.collect();
         Some(Self { step: scene.step(), tells: told(&scene), products, lags })

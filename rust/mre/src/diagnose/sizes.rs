@@ -38,7 +38,13 @@ impl Null<'_> {
         (0..recordings).filter_map(move |r| self.sizes_over_motion(r, together, size))
     }
 
-    fn sizes_over_motion(&self, r: usize, together: usize, size: &dyn Fn(&[f64]) -> f64) -> Option<Sizes> {
+    /// Of one recording; `None` where it tells nothing.
+    pub(super) fn sizes_over_motion(
+        &self,
+        r: usize,
+        together: usize,
+        size: &dyn Fn(&[f64]) -> f64,
+    ) -> Option<Sizes> {
         let (noise, campaign) = (self.noise(), self.assembly().campaign());
         if campaign.doubts()[r].cornered {
             return None;
@@ -46,7 +52,7 @@ impl Null<'_> {
         let recording = &campaign.recordings()[r];
         let (coefficients, deviation) = noise.autoregression(r);
         let (start, memory) = (recording.scored().start.max(noise.lost(r)), coefficients.len());
-        let left = &self.point.recordings[r].residual;
+        let left = self.unweighted(r);
         let measured = &recording.force().unwrap_or_default()[recording.scored()];
         if start + left.len() != recording.scored().end || step_of(measured) > COARSE * deviation {
             return None;

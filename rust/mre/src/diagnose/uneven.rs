@@ -50,17 +50,6 @@ struct Followed {
     right: DVector<f64>,
 }
 
-impl Followed {
-    /// Of the columns, by least squares.
-    fn weights(&self) -> Option<DVector<f64>> {
-        let mut gram = self.plain.clone();
-        for i in 0..COLUMNS {
-            gram[(i, i)] += RIDGE * gram[(i, i)] + f64::MIN_POSITIVE;
-        }
-        Some(gram.cholesky()?.solve(&self.right))
-    }
-}
-
 impl Null<'_> {
     /// Test whether the size of what is left follows the motion.
     ///
@@ -112,7 +101,7 @@ impl Null<'_> {
 
     /// Squared standard deviations in what is left beyond those of where the motion leaves least.
     fn swallowed(&self, followed: &Followed) -> f64 {
-        let Some(weights) = followed.weights() else { return 0.0 };
+        let Some(weights) = weights(&followed.plain, &followed.right) else { return 0.0 };
         let mut sizes: Vec<f64> = Vec::new();
         for own in self.sizes(followed.together, &square_of_the_mean) {
             let follows = |i: usize| (0..COLUMNS).map(|k| weights[k] * own.columns[k][i]).sum::<f64>();
@@ -125,8 +114,17 @@ impl Null<'_> {
     }
 }
 
+/// Of columns in what follows them, by least squares.
+pub(super) fn weights(plain: &DMatrix<f64>, right: &DVector<f64>) -> Option<DVector<f64>> {
+    let mut gram = plain.clone();
+    for i in 0..COLUMNS {
+        gram[(i, i)] += RIDGE * gram[(i, i)] + f64::MIN_POSITIVE;
+    }
+    Some(gram.cholesky()?.solve(right))
+}
+
 /// Chance that all columns follow as much, given the covariance of their products with sizes.
-fn chance(covariance: &DMatrix<f64>, right: &DVector<f64>) -> f64 {
+pub(super) fn chance(covariance: &DMatrix<f64>, right: &DVector<f64>) -> f64 {
     let squares: Vec<f64> = (0..COLUMNS).map(|i| covariance[(i, i)]).collect();
     let chosen: Vec<usize> = (0..COLUMNS).collect();
     let bias = DVector::zeros(COLUMNS);
