@@ -25,6 +25,9 @@ use crate::diagnose::search::Named;
 /// Laws of an effect that are fitted to a test at most: those that lack least of it at a glance.
 const FITTED: usize = 3;
 
+/// What may be true of an effect at most: that of the largest weights.
+const MOST_TRUE: usize = 3;
+
 /// What is true, and a model.
 type Job = (usize, usize);
 /// The criterion of each.
@@ -69,7 +72,7 @@ impl<'b, 'a> Bench<'b, 'a> {
         true_ones.dedup_by_key(|(model, _)| *model);
         let truths =
             true_ones.par_iter().flat_map(|(i, share)| truths(*i, *share, &models[*i], &held[*i], data));
-        let truths = truths.collect();
+        let truths = likeliest(truths.collect(), &places);
         let noise = named.noise.with_another_like(0);
         Self { base, rows, monitor, noise, left: doubt.left, models, behind, places, truths, held }
     }
@@ -226,4 +229,19 @@ impl<'b, 'a> Bench<'b, 'a> {
         let known = self.models[0].fitted.rows.max(1);
         (known + test.signal().time.len()) as f64 / known as f64
     }
+}
+
+/// The likeliest few of what may be true of each effect; the first is what is named.
+fn likeliest<'a>(truths: Vec<Truth<'a>>, places: &[Vec<Member>]) -> Vec<Truth<'a>> {
+    let heavier = |t: usize| {
+        let together = |other: &&Truth| {
+            let both = |member: &Member| {
+                member.models.contains(&truths[t].model) && member.models.contains(&other.model)
+            };
+            places.iter().flatten().any(both)
+        };
+        truths.iter().filter(together).filter(|other| other.weight > truths[t].weight).count()
+    };
+    let kept: Vec<bool> = (0..truths.len()).map(|t| t == 0 || heavier(t) < MOST_TRUE).collect();
+    truths.into_iter().zip(kept).filter_map(|(truth, kept)| kept.then_some(truth)).collect()
 }

@@ -15,7 +15,7 @@ const WORTH: f64 = 0.1;
 /// Chance that nothing is in doubt any more that is enough.
 const ENOUGH: f64 = 0.95;
 /// Tests that are looked at closely at most.
-const CLOSELY: usize = 6;
+const CLOSELY: usize = 4;
 
 /// A kind of test within limits, and what it tells.
 struct Telling {
