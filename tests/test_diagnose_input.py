@@ -33,6 +33,13 @@ SIZES = {
 WITH_MASS = Model("sinh", (Level(None, SINH),), effects=(MASS,), sizes=SIZES)
 TWO = Model("sinh", (Level(0.0, SINH), Level(1.0, SINH)))
 
+
+def moving_at(times: float) -> Recording:
+    """With a velocity that is so many times the rate of its displacement."""
+    r = record(2.0, 4.0, name="b")
+    return Recording(r.time, r.displacement, r.force, velocity=times * r.velocity, name="b")
+
+
 CASES = {
     "none": Case(list, ["empty list", "at least one"]),
     "twice": Case(lambda: [GOOD, GOOD], ["given twice"]),
@@ -52,6 +59,14 @@ CASES = {
     "opposite signs": Case(
         lambda: [GOOD, with_series(record(2.0, 4.0, name="b"), force=-force_of(record(2.0, 4.0)))],
         ["recording 'b'", "opposite signs", "turn the sign"],
+    ),
+    "velocity of the other sign": Case(
+        lambda: [GOOD, moving_at(-1.0)],
+        ["recording 'b'", "velocity and displacement have opposite signs", "leave the velocity out"],
+    ),
+    "velocity in another unit": Case(
+        lambda: [GOOD, moving_at(1e-3)],
+        ["recording 'b'", "covers 0.001 times the way", "in its unit"],
     ),
     "swapped": Case(swapped, ["give out energy", "not swapped"]),
     "too few samples": Case(

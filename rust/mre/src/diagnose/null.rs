@@ -43,10 +43,9 @@ pub(super) struct Null<'a> {
 impl<'a> Null<'a> {
     pub(super) fn new(assembly: &Assembly<'a>, data: Data<'a>, unit: &[f64]) -> Option<Self> {
         let even = Self::weighted(assembly, data, unit, None)?;
-        match even.weights_over_the_motion() {
-            None => Some(even),
-            weights => Self::weighted(assembly, data, unit, weights),
-        }
+        let Some(weights) = even.weights_over_the_motion() else { return Some(even) };
+        let weighted = Self::weighted(assembly, data, unit, Some(weights))?;
+        Some(if weighted.is_noise() { weighted } else { even })
     }
 
     fn weighted(
@@ -61,18 +60,23 @@ impl<'a> Null<'a> {
         let assembly = assembly.knowing(&assembly.physical(unit));
         let mut point = Point::at(&assembly, data, unit.to_vec());
         let known = point.fitted.coefficients.len() + unit.len();
-        let (mut shaken, more) = Shaken::of(&assembly, data, &point);
+        let (mut shaken, mut more) = Shaken::of(&assembly, data, &point);
         let mut tangents = tangents_at(&assembly, data, &mut point, known);
         for (r, weights) in weights.iter().flatten().enumerate() {
             weigh(&mut point.recordings[r].residual, weights);
             tangents[r].iter_mut().for_each(|(_, tangent)| weigh(tangent, weights));
+            let changes = shaken.iter_mut().map(Shaken::change_mut).chain(&mut more);
+            changes.for_each(|change| weigh(&mut change[r], weights));
         }
         let last = tangents.iter().flatten().map(|(place, _)| place + 1).max();
         let count = last.unwrap_or(0).max(known);
         let mut gram = DMatrix::<f64>::zeros(count, count);
         let mut bias = DVector::<f64>::zeros(count);
         for other in &mut shaken {
-            let there = other.tangents(data, known);
+            let mut there = other.tangents(data, known);
+            for (r, weights) in weights.iter().flatten().enumerate() {
+                there[r].iter_mut().for_each(|(_, tangent)| weigh(tangent, weights));
+            }
             for r in 0..there.len() {
                 other.add(r, &mut bias, &there[r], 1.0);
                 other.add(r, &mut bias, &tangents[r], -1.0);
@@ -147,11 +151,6 @@ impl<'a> Null<'a> {
     /// What whitened samples of a recording are multiplied with, where the noise's size follows the motion.
     pub(super) fn weights(&self, r: usize) -> Option<&[f64]> {
         self.weights.as_ref().map(|all| all[r].as_slice())
-    }
-
-    /// True where noise of the motions changes the force.
-    pub(super) fn is_shaken(&self) -> bool {
-        self.changes().next().is_some()
     }
 
     /// True where the search was broken off.

@@ -89,6 +89,11 @@ impl<'a> Shaken<'a> {
         &self.change
     }
 
+    /// The same, to be weighed.
+    pub(super) fn change_mut(&mut self) -> &mut Change {
+        &mut self.change
+    }
+
     /// All tangents there; the point's own columns are taken for them.
     pub(super) fn tangents(&mut self, data: Data, known: usize) -> Vec<Vec<(usize, Vec<f64>)>> {
         tangents_at(&self.assembly, data, &mut self.point, known)

@@ -28,20 +28,21 @@ pub(super) struct Sizes {
 }
 
 impl Null<'_> {
-    /// Of the recordings that tell something.
+    /// Of what is left of the recordings that tell something.
     pub(super) fn sizes<'s>(
         &'s self,
+        left: impl Fn(usize) -> Vec<f64> + 's,
         together: usize,
         size: &'s dyn Fn(&[f64]) -> f64,
     ) -> impl Iterator<Item = Sizes> + 's {
         let recordings = self.assembly().campaign().recordings().len();
-        (0..recordings).filter_map(move |r| self.sizes_over_motion(r, together, size))
+        (0..recordings).filter_map(move |r| self.sizes_over_motion(r, &left(r), together, size))
     }
 
-    /// Of one recording; `None` where it tells nothing.
-    pub(super) fn sizes_over_motion(
+    fn sizes_over_motion(
         &self,
         r: usize,
+        left: &[f64],
         together: usize,
         size: &dyn Fn(&[f64]) -> f64,
     ) -> Option<Sizes> {
@@ -52,7 +53,6 @@ impl Null<'_> {
         let recording = &campaign.recordings()[r];
         let (coefficients, deviation) = noise.autoregression(r);
         let (start, memory) = (recording.scored().start.max(noise.lost(r)), coefficients.len());
-        let left = self.unweighted(r);
         let measured = &recording.force().unwrap_or_default()[recording.scored()];
         if start + left.len() != recording.scored().end || step_of(measured) > COARSE * deviation {
             return None;

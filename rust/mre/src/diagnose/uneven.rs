@@ -50,6 +50,17 @@ struct Followed {
     right: DVector<f64>,
 }
 
+impl Followed {
+    /// Of the columns, by least squares.
+    fn weights(&self) -> Option<DVector<f64>> {
+        let mut gram = self.plain.clone();
+        for i in 0..COLUMNS {
+            gram[(i, i)] += RIDGE * gram[(i, i)] + f64::MIN_POSITIVE;
+        }
+        Some(gram.cholesky()?.solve(&self.right))
+    }
+}
+
 impl Null<'_> {
     /// Test whether the size of what is left follows the motion.
     ///
@@ -73,7 +84,7 @@ impl Null<'_> {
         }
         let of = |together: usize| {
             let (mut gram, mut right) = (DMatrix::zeros(COLUMNS, COLUMNS), DVector::zeros(COLUMNS));
-            for own in self.sizes(together, &products_of_neighbours) {
+            for own in self.sizes(|r| self.left(r).to_vec(), together, &products_of_neighbours) {
                 gram += own.covariance_of_any_size();
                 right += own.right();
             }
@@ -91,7 +102,7 @@ impl Null<'_> {
     fn followed(&self, together: usize) -> Option<Followed> {
         let nothing = || DMatrix::zeros(COLUMNS, COLUMNS);
         let (mut plain, mut gram, mut right) = (nothing(), nothing(), DVector::zeros(COLUMNS));
-        for own in self.sizes(together, &square_of_the_mean) {
+        for own in self.sizes(|r| self.unweighted(r), together, &square_of_the_mean) {
             plain += own.products(0);
             gram += own.covariance();
             right += own.right();
@@ -101,9 +112,9 @@ impl Null<'_> {
 
     /// Squared standard deviations in what is left beyond those of where the motion leaves least.
     fn swallowed(&self, followed: &Followed) -> f64 {
-        let Some(weights) = weights(&followed.plain, &followed.right) else { return 0.0 };
+        let Some(weights) = followed.weights() else { return 0.0 };
         let mut sizes: Vec<f64> = Vec::new();
-        for own in self.sizes(followed.together, &square_of_the_mean) {
+        for own in self.sizes(|r| self.unweighted(r), followed.together, &square_of_the_mean) {
             let follows = |i: usize| (0..COLUMNS).map(|k| weights[k] * own.columns[k][i]).sum::<f64>();
             sizes.extend((0..own.squares.len()).map(|i| 1.0 + own.spread * follows(i)));
         }
@@ -112,15 +123,6 @@ impl Null<'_> {
         let share = 1.0 - quiet.max(0.0);
         if share > LEAST { share * sizes.len() as f64 } else { 0.0 }
     }
-}
-
-/// Of columns in what follows them, by least squares.
-pub(super) fn weights(plain: &DMatrix<f64>, right: &DVector<f64>) -> Option<DVector<f64>> {
-    let mut gram = plain.clone();
-    for i in 0..COLUMNS {
-        gram[(i, i)] += RIDGE * gram[(i, i)] + f64::MIN_POSITIVE;
-    }
-    Some(gram.cholesky()?.solve(right))
 }
 
 /// Chance that all columns follow as much, given the covariance of their products with sizes.

@@ -1,76 +1,128 @@
-//! Noise of a size that follows the motion, such as one that grows with the force: tests weigh samples by the size around
-//! them. The tangents of even noise would take a few samples where it is large for a mismatch.
+//! Noise of a size that follows the motion, as where a part of it is a share of the reading: tests weigh samples by the size
+//! around them. Those of even noise would take a few samples where it is large for a mismatch.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::motion::COLUMNS;
 use super::null::Null;
-use super::uneven::{chance, weights};
+use super::uneven::chance;
 use crate::kernel::filter::dot;
 
 /// Samples that are taken together: of the difference of two, what is missing and smooth takes no part.
 const PAIR: usize = 2;
-/// Squares above this many variances count as this many.
-const LARGEST: [f64; 2] = [9.0, 30.0];
+/// Squares above this many variances count as this many: heavy tails are noise too.
+const LARGEST: f64 = 9.0;
+/// Beyond so many a sample is wild, of whatever size the noise is there.
+const WILD: f64 = 40.0;
 /// The size of a noise follows the motion where it does so by chance more seldom,
 const PLAINLY: f64 = 1e-6;
 /// and what is left is noise of any size where neighbours go together by chance more often.
-const NOISE: f64 = 1e-3;
-/// Least variance over the mean.
-const LEAST: f64 = 0.05;
+const NOISE: f64 = 1e-4;
+/// Series that the size of a noise may follow: the force of the model, the velocity, the displacement.
+const FOLLOWED: usize = 3;
+/// Variances where what the noise follows is as large as its rms, over those where it is nothing: the least, the factor
+/// from one to the next, and how many.
+const RATIOS: (f64, f64, i32) = (0.1, 1.6, 20);
+
+/// Squares that a variance is estimated from, and what it may follow, as squares over their mean.
+struct Squares {
+    noise: Vec<f64>,
+    followed: [Vec<f64>; FOLLOWED],
+}
 
 impl Null<'_> {
-    /// What whitened samples are to be multiplied with, by recording; `None` where the noise is of even size, or where
-    /// more than noise may be left.
+    /// What whitened samples are to be multiplied with, by recording; `None` where the noise is of even size.
     pub(super) fn weights_over_the_motion(&self) -> Option<Vec<Vec<f64>>> {
-        if !self.knows_its_noise() || self.is_shaken() {
+        if !self.knows_its_noise() {
             return None;
         }
-        let (plain, right) = self.followed_by_pairs(LARGEST[0]);
-        if plain.trace() <= 0.0 || chance(&plain, &right) > PLAINLY || self.linked() < NOISE {
-            return None;
-        }
-        let (plain, right) = self.followed_by_pairs(LARGEST[1]);
-        let shares = weights(&plain, &right)?;
-        Some((0..self.point.recordings.len()).map(|r| self.weights_of(r, &shares)).collect())
-    }
-
-    /// Products of functions of the motion with each other, and with the sizes of differences of neighbours.
-    fn followed_by_pairs(&self, largest: f64) -> (DMatrix<f64>, DVector<f64>) {
         let (mut plain, mut right) = (DMatrix::zeros(COLUMNS, COLUMNS), DVector::zeros(COLUMNS));
-        for own in self.sizes(PAIR, &half_square_of_the_difference(largest)) {
+        for own in self.sizes(|r| self.left(r).to_vec(), PAIR, &half_square_of_the_difference) {
             plain += own.products(0);
             right += own.right();
         }
-        (plain, right)
+        if plain.trace() <= 0.0 || chance(&plain, &right) > PLAINLY {
+            return None;
+        }
+        let recordings = 0..self.point.recordings.len();
+        let all: Vec<Squares> = recordings.map(|r| self.squares(r)).collect();
+        let best = |which: usize| all.iter().map(|own| own.best(which)).collect::<Vec<_>>();
+        let unlikely = |found: &Vec<(f64, f64)>| found.iter().map(|(unlikely, _)| unlikely).sum::<f64>();
+        let tried = (0..FOLLOWED).map(|which| (which, best(which)));
+        let (which, found) = tried.min_by(|a, b| unlikely(&a.1).total_cmp(&unlikely(&b.1)))?;
+        let all = all.iter().zip(found).enumerate();
+        Some(all.map(|(r, (own, (_, ratio)))| own.weights(which, ratio, self.left(r))).collect())
     }
 
-    /// Of a recording, by what functions of its motion add to the variance; they leave the sum of squares as it is.
-    fn weights_of(&self, r: usize, shares: &DVector<f64>) -> Vec<f64> {
-        let left = &self.point.recordings[r].residual;
-        let Some(own) = self.sizes_over_motion(r, PAIR, &half_square_of_the_difference(LARGEST[1])) else {
-            return vec![1.0; left.len()];
-        };
-        let follows = |i: usize| (0..COLUMNS).map(|k| shares[k] * own.columns[k][i]).sum::<f64>();
-        let last = own.squares.len() - 1;
-        let variance = |i: usize| (1.0 + own.spread * follows((i / PAIR).min(last))).max(LEAST);
-        let mut weights: Vec<f64> = (0..left.len()).map(|i| variance(i).sqrt().recip()).collect();
-        let weighted: f64 = left.iter().zip(&weights).map(|(e, w)| (e * w).powi(2)).sum();
-        let scale = (dot(left, left) / weighted).sqrt();
-        weights.iter_mut().for_each(|w| *w *= scale);
-        weights
+    /// True where neighbours of what is left do not go together beyond chance.
+    pub(super) fn is_noise(&self) -> bool {
+        self.linked() > NOISE
     }
 
-    /// What is left of a recording as it is, whitened.
+    /// Of a recording.
+    fn squares(&self, r: usize) -> Squares {
+        let left = self.left(r);
+        let (scene, end) = (self.scene(r), self.assembly().campaign().recordings()[r].scored().end);
+        let rows = end.saturating_sub(left.len())..end;
+        let force = &self.point.recordings[r].force;
+        let followed = [force.as_slice(), scene.velocity, scene.displacement].map(|series| {
+            let own: Vec<f64> = series[rows.clone()].iter().map(|value| value * value).collect();
+            let mean = own.iter().sum::<f64>() / own.len().max(1) as f64;
+            own.iter().map(|square| square / mean.max(f64::MIN_POSITIVE)).collect()
+        });
+        let half_square = |pair: &[f64]| (0.5 * (pair[1] - pair[0]).powi(2)).min(WILD);
+        Squares { noise: left.chunks_exact(PAIR).map(half_square).collect(), followed }
+    }
+
+    /// What is left of a recording, whitened and weighed.
+    pub(super) fn left(&self, r: usize) -> &[f64] {
+        &self.point.recordings[r].residual
+    }
+
+    /// The same, not weighed.
     pub(super) fn unweighted(&self, r: usize) -> Vec<f64> {
-        let left = &self.point.recordings[r].residual;
         match self.weights(r) {
-            Some(weights) => left.iter().zip(weights).map(|(e, w)| e / w).collect(),
-            None => left.clone(),
+            Some(weights) => self.left(r).iter().zip(weights).map(|(e, w)| e / w).collect(),
+            None => self.left(r).to_vec(),
         }
     }
 }
 
-fn half_square_of_the_difference(largest: f64) -> impl Fn(&[f64]) -> f64 {
-    move |pair| (0.5 * (pair[1] - pair[0]).powi(2)).min(largest)
+impl Squares {
+    /// The likeliest of the ratios, behind its unlikelihood.
+    fn best(&self, which: usize) -> (f64, f64) {
+        let (first, factor, count) = RATIOS;
+        let ratios = std::iter::once(0.0).chain((0..count).map(|k| first * factor.powi(k)));
+        let tried = ratios.map(|ratio| (self.unlikelihood(which, ratio), ratio));
+        tried.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or_default()
+    }
+
+    /// Twice the negative logarithm of the likelihood of a variance in such a ratio, of the best size, up to a constant.
+    fn unlikelihood(&self, which: usize, ratio: f64) -> f64 {
+        let count = self.noise.len().max(1) as f64;
+        let followed = self.followed[which].chunks_exact(PAIR);
+        let (mut sum, mut logarithms) = (0.0, 0.0);
+        for (noise, some) in self.noise.iter().zip(followed) {
+            let variance = 1.0 + ratio * 0.5 * (some[0] + some[1]);
+            sum += noise / variance;
+            logarithms += variance.ln();
+        }
+        count * (sum / count).max(f64::MIN_POSITIVE).ln() + logarithms
+    }
+
+    /// Weights that leave the sum of squares of what is left as it is.
+    fn weights(&self, which: usize, ratio: f64, left: &[f64]) -> Vec<f64> {
+        let own = self.followed[which].iter().map(|followed| (1.0 + ratio * followed).sqrt().recip());
+        let mut weights: Vec<f64> = own.collect();
+        let weighted: f64 = left.iter().zip(&weights).map(|(e, w)| (e * w).powi(2)).sum();
+        let scale = (dot(left, left) / weighted.max(f64::MIN_POSITIVE)).sqrt();
+        for weight in &mut weights {
+            *weight *= scale;
+        }
+        weights
+    }
+}
+
+fn half_square_of_the_difference(pair: &[f64]) -> f64 {
+    (0.5 * (pair[1] - pair[0]).powi(2)).min(LARGEST)
 }
