@@ -13,7 +13,7 @@ def with_velocity(times: float, offset: float = 0.0) -> Recording:
     return Recording(r.time, r.displacement, r.force, velocity=velocity, name="a")
 
 
-@pytest.mark.parametrize("times", [-1.0, 0.0, 1e-3, 25.4])
+@pytest.mark.parametrize("times", [-1.0, 1e-3, 25.4])
 def test_identify_refuses_another(times: float) -> None:
     with pytest.raises(mre_core.InputError, match=r"recording 'a'.*(opposite signs|covers)"):
         mre_core.identify([with_velocity(times)], "sinh", seed=1)

@@ -112,7 +112,8 @@ def check_velocities(recordings: Sequence[Recording]) -> None:
     ways = [_ways(recording) for recording in recordings]
     largest = max(moved.std() for moved, _ in ways)
     for recording, (moved, covered) in zip(recordings, ways, strict=True):
-        if moved.std() <= _RESTS * largest:
+        # A velocity that is zero throughout is refused by what it is.
+        if moved.std() <= _RESTS * largest or not recording.velocity.any():
             continue
         share = float(moved @ covered) / float(moved @ moved)
         if share < _AGAINST * np.sqrt(float(covered @ covered) / float(moved @ moved)):
