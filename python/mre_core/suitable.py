@@ -19,6 +19,8 @@ _ROUGHER = 3.0
 """A force that is so many times as rough as the displacement is in its own column."""
 _RESTS = 0.1
 """Recordings that move less than this share of the others, by their rms, say little of their velocity."""
+_RESOLVED = 0.4
+"""The same of ten samples a cycle."""
 _SMOOTH = 4
 """Order of the differences that show how rough a series is."""
 _JUMPS = 1.5
@@ -102,18 +104,25 @@ def check_force(recording: Recording) -> NDArray[np.float64]:
 
 
 def check_velocities(recordings: Sequence[Recording]) -> None:
-    """Refuse a velocity of the wrong sign or unit.
+    """Refuse a recorded velocity of the wrong sign or unit.
+
+    Parameters
+    ----------
+    recordings : sequence of Recording
+        Of which those are compared that move by much, beside the others and beside a ramp, and smoothly.
 
     Raises
     ------
     InputError
-        Its integral, mm, is not the displacement, by its sign or by far.
+        The integral of a velocity, mm, is not the displacement, by its sign or by far.
     """
     ways = [_ways(recording) for recording in recordings]
     largest = max(moved.std() for moved, _ in ways)
     for recording, (moved, covered) in zip(recordings, ways, strict=True):
         # A velocity that is zero throughout is refused by what it is.
-        if moved.std() <= _RESTS * largest or not recording.velocity.any():
+        derived = recording.velocity_window is not None or not recording.velocity.any()
+        x = recording.displacement[slice(*recording.scored)]
+        if derived or moved.std() <= _RESTS * max(largest, float(x.std())) or not _is_smooth(moved):
             continue
         share = float(moved @ covered) / float(moved @ moved)
         if share < _AGAINST * np.sqrt(float(covered @ covered) / float(moved @ moved)):
@@ -143,6 +152,11 @@ def _ways(recording: Recording) -> tuple[NDArray[np.float64], NDArray[np.float64
         series - lines @ np.linalg.lstsq(lines, series, rcond=None)[0] for series in (x, covered)
     )
     return moved, covered
+
+
+def _is_smooth(moved: NDArray[np.float64]) -> bool:
+    """Of some samples a cycle: no noise, and a trapezoidal rule integrates its rate."""
+    return moved.size > _LEAST and float(np.mean(np.diff(moved) ** 2)) < _RESOLVED * float(np.var(moved))
 
 
 def _scored(recording: Recording) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

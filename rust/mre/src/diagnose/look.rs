@@ -55,7 +55,7 @@ impl<'a> Search<'_, 'a> {
         let under = |noise: &Noise, fitted: &Fitted| {
             let samples = |r: usize| {
                 let lost = noise.lost(r);
-                self.rows[r].iter().map(|range| range.end - range.start.max(lost)).sum()
+                self.rows[r].iter().map(|range| range.end.max(lost) - range.start.max(lost)).sum()
             };
             fitted.left + noise.logarithm_of_covariance(samples)
         };

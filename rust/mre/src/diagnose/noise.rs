@@ -112,7 +112,7 @@ impl Noise {
         (0..self.filters.len()).all(|r| self.lost(r) == other.lost(r))
     }
 
-    /// Logarithm of the determinant of its covariance, of so many whitened samples of each recording, N^2.
+    /// Logarithm of the determinant of its covariance, of so many whitened samples of each recording.
     pub(super) fn logarithm_of_covariance(&self, samples: impl Fn(usize) -> usize) -> f64 {
         let of = |(r, filter): (usize, &Filter)| {
             -2.0 * (samples(r) as f64 * filter.scale.ln() + self.wander[r].logarithm_of_shares())

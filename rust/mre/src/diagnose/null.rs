@@ -38,25 +38,28 @@ pub(super) struct Null<'a> {
     strays: Strays,
     /// What whitened samples are multiplied with, by recording, where the noise's size follows the motion.
     weights: Option<Vec<Vec<f64>>>,
+    /// Which coefficients a limit holds against the residual of even noise, of which the fit is the best.
+    held: Vec<bool>,
 }
 
 impl<'a> Null<'a> {
     pub(super) fn new(assembly: &Assembly<'a>, data: Data<'a>, unit: &[f64]) -> Option<Self> {
         let even = Self::weighted(assembly, data, unit, None)?;
         let Some(weights) = even.weights_over_the_motion() else { return Some(even) };
-        let weighted = Self::weighted(assembly, data, unit, Some(weights))?;
-        Some(if weighted.is_noise() { weighted } else { even })
+        let weighted = Self::weighted(assembly, data, unit, Some((weights, &even.held)));
+        Some(weighted.filter(Null::is_noise).unwrap_or(even))
     }
 
     fn weighted(
         assembly: &Assembly<'a>,
         data: Data<'a>,
         unit: &[f64],
-        weights: Option<Vec<Vec<f64>>>,
+        known_of_noise: Option<(Vec<Vec<f64>>, &[bool])>,
     ) -> Option<Self> {
         if data.monitor.broken_off() {
             return None;
         }
+        let (weights, held) = known_of_noise.unzip();
         let assembly = assembly.knowing(&assembly.physical(unit));
         let mut point = Point::at(&assembly, data, unit.to_vec());
         let known = point.fitted.coefficients.len() + unit.len();
@@ -99,7 +102,8 @@ impl<'a> Null<'a> {
             gram[(i, i)] += known;
         }
         // A coefficient that a limit holds against the residual takes nothing off it.
-        let held = held_by_a_limit(&assembly, &point.fitted.coefficients, &right);
+        let held = held
+            .map_or_else(|| held_by_a_limit(&assembly, &point.fitted.coefficients, &right), <[bool]>::to_vec);
         let free = |i: usize| gram[(i, i)] > 0.0 && !held.get(i).is_some_and(|held| *held);
         let scale: Vec<f64> =
             (0..count).map(|i| if free(i) { 1.0 / gram[(i, i)].sqrt() } else { 0.0 }).collect();
@@ -135,6 +139,7 @@ impl<'a> Null<'a> {
             more,
             strays,
             weights,
+            held,
         })
     }
 

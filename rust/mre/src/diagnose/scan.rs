@@ -46,7 +46,6 @@ impl Scanned {
             [1.0].into_iter().chain(coefficients.iter().map(|a| -a)).map(|a| a / deviation).collect();
         let weights = null.weights(r);
         let weight = |i: usize| weights.map_or(1.0, |weights| weights[i]);
-        let even = (0..left.len()).map(|i| weight(i).powi(2)).sum::<f64>() / left.len().max(1) as f64;
         let mut backwards = vec![0.0; end - first];
         for (i, e) in left.iter().enumerate().map(|(i, e)| (i, weight(i) * e)) {
             for (k, a) in filter.iter().enumerate() {
@@ -56,12 +55,14 @@ impl Scanned {
         let scene = null.scene(r);
         let carrier = carrier.map_or_else(|| vec![1.0; end - first], |of| of(&scene)[first..end].to_vec());
         let products = backwards.iter().zip(&carrier).map(|(b, c)| b * c).collect();
+        // The noise's size changes slowly beside the whitening.
+        let lost = start - first;
+        let weighed: Vec<f64> =
+            carrier.iter().enumerate().map(|(j, c)| c * weight(j.saturating_sub(lost))).collect();
         let (last, taps) = (carrier.len(), filter.len());
         let lags = (0..taps.min(last)).map(|lag| {
             let twice = if lag == 0 { 1.0 } else { 2.0 };
-            even * twice
-                * dot(&filter[lag..], &filter[..taps - lag])
-                * dot(&carrier[lag..], &carrier[..last - lag])
+            twice * dot(&filter[lag..], &filter[..taps - lag]) * dot(&weighed[lag..], &weighed[..last - lag])
         });
         let lags = lags.collect();
         Some(Self { step: scene.step(), tells: told(&scene), products, lags })

@@ -28,21 +28,22 @@ pub(super) struct Sizes {
 }
 
 impl Null<'_> {
-    /// Of what is left of the recordings that tell something.
+    /// Of what is left of the recordings that tell something, as `seen` has whitened series of a recording.
     pub(super) fn sizes<'s>(
         &'s self,
-        left: impl Fn(usize) -> Vec<f64> + 's,
+        seen: impl Fn(usize, &[f64]) -> Vec<f64> + 's,
         together: usize,
         size: &'s dyn Fn(&[f64]) -> f64,
     ) -> impl Iterator<Item = Sizes> + 's {
         let recordings = self.assembly().campaign().recordings().len();
-        (0..recordings).filter_map(move |r| self.sizes_over_motion(r, &left(r), together, size))
+        (0..recordings)
+            .filter_map(move |r| self.sizes_over_motion(r, &|series| seen(r, series), together, size))
     }
 
     fn sizes_over_motion(
         &self,
         r: usize,
-        left: &[f64],
+        seen: &dyn Fn(&[f64]) -> Vec<f64>,
         together: usize,
         size: &dyn Fn(&[f64]) -> f64,
     ) -> Option<Sizes> {
@@ -54,6 +55,7 @@ impl Null<'_> {
         let (coefficients, deviation) = noise.autoregression(r);
         let (start, memory) = (recording.scored().start.max(noise.lost(r)), coefficients.len());
         let measured = &recording.force().unwrap_or_default()[recording.scored()];
+        let left = seen(self.left(r));
         if start + left.len() != recording.scored().end || step_of(measured) > COARSE * deviation {
             return None;
         }
@@ -66,7 +68,7 @@ impl Null<'_> {
         // Noise of the motion is larger where that is fast.
         let draws: Vec<&Change> = self.changes().collect();
         for change in &draws {
-            for (square, some) in squares.iter_mut().zip(change[r].chunks_exact(together)) {
+            for (square, some) in squares.iter_mut().zip(seen(&change[r]).chunks_exact(together)) {
                 *square -= size(some) / draws.len() as f64;
             }
         }

@@ -18,7 +18,7 @@ const TOGETHER: [usize; 3] = [1, 4, 16];
 /// Neighbours that are taken together.
 const LINKED: [usize; 3] = [2, 4, 16];
 /// Squares above this many variances count as this many: heavy tails are noise too.
-const LARGEST: f64 = 9.0;
+pub(super) const LARGEST: f64 = 9.0;
 /// Ridge on ones on the diagonal.
 const RIDGE: f64 = 1e-6;
 /// Share of the noise that is not noise, below which it may be chance.
@@ -84,7 +84,7 @@ impl Null<'_> {
         }
         let of = |together: usize| {
             let (mut gram, mut right) = (DMatrix::zeros(COLUMNS, COLUMNS), DVector::zeros(COLUMNS));
-            for own in self.sizes(|r| self.left(r).to_vec(), together, &products_of_neighbours) {
+            for own in self.sizes(|_, series| series.to_vec(), together, &products_of_neighbours) {
                 gram += own.covariance_of_any_size();
                 right += own.right();
             }
@@ -102,7 +102,7 @@ impl Null<'_> {
     fn followed(&self, together: usize) -> Option<Followed> {
         let nothing = || DMatrix::zeros(COLUMNS, COLUMNS);
         let (mut plain, mut gram, mut right) = (nothing(), nothing(), DVector::zeros(COLUMNS));
-        for own in self.sizes(|r| self.unweighted(r), together, &square_of_the_mean) {
+        for own in self.sizes(|r, series| self.unweighted(r, series), together, &square_of_the_mean) {
             plain += own.products(0);
             gram += own.covariance();
             right += own.right();
@@ -114,7 +114,8 @@ impl Null<'_> {
     fn swallowed(&self, followed: &Followed) -> f64 {
         let Some(weights) = followed.weights() else { return 0.0 };
         let mut sizes: Vec<f64> = Vec::new();
-        for own in self.sizes(|r| self.unweighted(r), followed.together, &square_of_the_mean) {
+        for own in self.sizes(|r, series| self.unweighted(r, series), followed.together, &square_of_the_mean)
+        {
             let follows = |i: usize| (0..COLUMNS).map(|k| weights[k] * own.columns[k][i]).sum::<f64>();
             sizes.extend((0..own.squares.len()).map(|i| 1.0 + own.spread * follows(i)));
         }

@@ -3,16 +3,15 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::gaps::LeftOut;
 use super::motion::COLUMNS;
 use super::null::Null;
-use super::uneven::chance;
+use super::uneven::{LARGEST, chance};
 use crate::kernel::filter::dot;
 
 /// Samples that are taken together: of the difference of two, what is missing and smooth takes no part.
 const PAIR: usize = 2;
-/// Squares above this many variances count as this many: heavy tails are noise too.
-const LARGEST: f64 = 9.0;
-/// Beyond so many a sample is wild, of whatever size the noise is there.
+/// Beyond so many variances a square is a wild sample's, of whatever size the noise is there.
 const WILD: f64 = 40.0;
 /// The size of a noise follows the motion where it does so by chance more seldom,
 const PLAINLY: f64 = 1e-6;
@@ -27,6 +26,7 @@ const RATIOS: (f64, f64, i32) = (0.1, 1.6, 20);
 /// Squares that a variance is estimated from, and what it may follow, as squares over their mean.
 struct Squares {
     noise: Vec<f64>,
+    telling: Vec<bool>,
     followed: [Vec<f64>; FOLLOWED],
 }
 
@@ -37,7 +37,7 @@ impl Null<'_> {
             return None;
         }
         let (mut plain, mut right) = (DMatrix::zeros(COLUMNS, COLUMNS), DVector::zeros(COLUMNS));
-        for own in self.sizes(|r| self.left(r).to_vec(), PAIR, &half_square_of_the_difference) {
+        for own in self.sizes(|_, series| series.to_vec(), PAIR, &half_square_of_the_difference) {
             plain += own.products(0);
             right += own.right();
         }
@@ -59,7 +59,7 @@ impl Null<'_> {
         self.linked() > NOISE
     }
 
-    /// Of a recording.
+    /// Of the pairs of samples of a recording that tell something.
     fn squares(&self, r: usize) -> Squares {
         let left = self.left(r);
         let (scene, end) = (self.scene(r), self.assembly().campaign().recordings()[r].scored().end);
@@ -71,7 +71,12 @@ impl Null<'_> {
             own.iter().map(|square| square / mean.max(f64::MIN_POSITIVE)).collect()
         });
         let half_square = |pair: &[f64]| (0.5 * (pair[1] - pair[0]).powi(2)).min(WILD);
-        Squares { noise: left.chunks_exact(PAIR).map(half_square).collect(), followed }
+        let telling = LeftOut::of(self.assembly().campaign(), r).telling(rows, self.noise().lost(r));
+        Squares {
+            noise: left.chunks_exact(PAIR).map(half_square).collect(),
+            telling: telling.chunks_exact(PAIR).map(|pair| pair.iter().all(|tells| *tells)).collect(),
+            followed,
+        }
     }
 
     /// What is left of a recording, whitened and weighed.
@@ -79,11 +84,11 @@ impl Null<'_> {
         &self.point.recordings[r].residual
     }
 
-    /// The same, not weighed.
-    pub(super) fn unweighted(&self, r: usize) -> Vec<f64> {
+    /// A whitened and weighed series of a recording as it was before.
+    pub(super) fn unweighted(&self, r: usize, series: &[f64]) -> Vec<f64> {
         match self.weights(r) {
-            Some(weights) => self.left(r).iter().zip(weights).map(|(e, w)| e / w).collect(),
-            None => self.left(r).to_vec(),
+            Some(weights) => series.iter().zip(weights).map(|(e, w)| e / w).collect(),
+            None => series.to_vec(),
         }
     }
 }
@@ -99,10 +104,12 @@ impl Squares {
 
     /// Twice the negative logarithm of the likelihood of a variance in such a ratio, of the best size, up to a constant.
     fn unlikelihood(&self, which: usize, ratio: f64) -> f64 {
-        let count = self.noise.len().max(1) as f64;
+        let count = self.telling.iter().filter(|tells| **tells).count().max(1) as f64;
         let followed = self.followed[which].chunks_exact(PAIR);
         let (mut sum, mut logarithms) = (0.0, 0.0);
-        for (noise, some) in self.noise.iter().zip(followed) {
+        for ((noise, some), _) in
+            self.noise.iter().zip(followed).zip(&self.telling).filter(|(_, tells)| **tells)
+        {
             let variance = 1.0 + ratio * 0.5 * (some[0] + some[1]);
             sum += noise / variance;
             logarithms += variance.ln();
@@ -115,7 +122,8 @@ impl Squares {
         let own = self.followed[which].iter().map(|followed| (1.0 + ratio * followed).sqrt().recip());
         let mut weights: Vec<f64> = own.collect();
         let weighted: f64 = left.iter().zip(&weights).map(|(e, w)| (e * w).powi(2)).sum();
-        let scale = (dot(left, left) / weighted.max(f64::MIN_POSITIVE)).sqrt();
+        // Where nothing is left there is nothing to weigh.
+        let scale = if weighted > 0.0 { (dot(left, left) / weighted).sqrt() } else { 1.0 };
         for weight in &mut weights {
             *weight *= scale;
         }

@@ -231,17 +231,28 @@ impl<'b, 'a> Bench<'b, 'a> {
     }
 }
 
-/// The likeliest few of what may be true of each effect; the first is what is named.
+/// What may be true of each effect: its few points of the largest weights, the first of its likeliest model among them; the
+/// first of all is what is named.
 fn likeliest<'a>(truths: Vec<Truth<'a>>, places: &[Vec<Member>]) -> Vec<Truth<'a>> {
     let heavier = |t: usize| {
-        let together = |other: &&Truth| {
+        let together = |other: &Truth| {
             let both = |member: &Member| {
                 member.models.contains(&truths[t].model) && member.models.contains(&other.model)
             };
             places.iter().flatten().any(both)
         };
-        truths.iter().filter(together).filter(|other| other.weight > truths[t].weight).count()
+        let before = |(place, other): &(usize, &Truth)| {
+            other.weight > truths[t].weight || (other.weight == truths[t].weight && *place < t)
+        };
+        let all = truths.iter().enumerate();
+        all.filter(|(_, other)| together(other)).filter(before).count()
     };
-    let kept: Vec<bool> = (0..truths.len()).map(|t| t == 0 || heavier(t) < MOST_TRUE).collect();
+    let first_of_the_likeliest = |t: usize| {
+        let own = |member: &Member| member.likeliest == truths[t].model;
+        let first = truths.iter().position(|other| other.model == truths[t].model) == Some(t);
+        first && places.iter().flatten().any(own)
+    };
+    let kept: Vec<bool> =
+        (0..truths.len()).map(|t| t == 0 || first_of_the_likeliest(t) || heavier(t) < MOST_TRUE).collect();
     truths.into_iter().zip(kept).filter_map(|(truth, kept)| kept.then_some(truth)).collect()
 }
