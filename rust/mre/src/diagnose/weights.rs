@@ -134,3 +134,42 @@ impl Squares {
 fn half_square_of_the_difference(pair: &[f64]) -> f64 {
     (0.5 * (pair[1] - pair[0]).powi(2)).min(LARGEST)
 }
+
+#[cfg(test)]
+mod tests {
+    use rand_chacha::ChaCha8Rng;
+    use rand_core::SeedableRng;
+
+    use super::*;
+    use crate::deviate::normal;
+
+    #[test]
+    fn the_likeliest_variance_is_found_and_makes_the_noise_even() {
+        let mut stream = ChaCha8Rng::seed_from_u64(7);
+        let followed: Vec<f64> = (0..8000).map(|i| 2.0 * (0.01 * f64::from(i)).sin().powi(2)).collect();
+        let left: Vec<f64> = followed.iter().map(|f| (1.0 + 5.0 * f).sqrt() * normal(&mut stream)).collect();
+        let half_square = |pair: &[f64]| 0.5 * (pair[1] - pair[0]).powi(2);
+        let squares = Squares {
+            noise: left.chunks_exact(PAIR).map(half_square).collect(),
+            telling: vec![true; left.len() / PAIR],
+            followed: [vec![1.0; left.len()], followed.clone(), vec![0.0; left.len()]],
+        };
+        let all: Vec<(f64, f64)> = (0..FOLLOWED).map(|which| squares.best(which)).collect();
+        assert!(all[1].0 < all[0].0 - 100.0 && all[1].0 < all[2].0 - 100.0, "{all:?}");
+        assert!((2.5..10.0).contains(&all[1].1), "{all:?}");
+        let weights = squares.weights(1, all[1].1, &left);
+        let weighted: Vec<f64> = left.iter().zip(&weights).map(|(e, w)| e * w).collect();
+        assert!((dot(&weighted, &weighted) / dot(&left, &left) - 1.0).abs() < 1e-12);
+        let mean_square = |loud: bool| {
+            let some: Vec<f64> = weighted
+                .iter()
+                .zip(&followed)
+                .filter(|(_, f)| (**f > 1.0) == loud)
+                .map(|(e, _)| e * e)
+                .collect();
+            some.iter().sum::<f64>() / some.len() as f64
+        };
+        assert!((mean_square(true) / mean_square(false) - 1.0).abs() < 0.15);
+        assert!(squares.weights(1, 5.0, &vec![0.0; left.len()]).iter().all(|w| w.is_finite() && *w > 0.0));
+    }
+}
