@@ -293,12 +293,13 @@ impl<'a> Null<'a> {
     }
 }
 
-/// Which coefficients stand at a limit that the residual would have them pass.
+/// Which coefficients of the base stand at a limit that the residual would have them pass.
 fn held_by_a_limit(assembly: &Assembly, coefficients: &[f64], right: &DVector<f64>) -> Vec<bool> {
     let held = |((limits, value), right): ((&Parameter, &f64), &f64)| {
         (*value <= limits.smallest && *right < 0.0) || (*value >= limits.largest && *right > 0.0)
     };
-    assembly.coefficients().iter().zip(coefficients).zip(right.iter()).map(held).collect()
+    let of_the_base = assembly.coefficients().into_iter().take(assembly.base_coefficients());
+    of_the_base.collect::<Vec<_>>().iter().zip(coefficients).zip(right.iter()).map(held).collect()
 }
 
 fn weigh(series: &mut [f64], weights: &[f64]) {

@@ -36,12 +36,12 @@ impl Null<'_> {
         if !self.knows_its_noise() {
             return None;
         }
-        let (mut plain, mut right) = (DMatrix::zeros(COLUMNS, COLUMNS), DVector::zeros(COLUMNS));
+        let (mut gram, mut right) = (DMatrix::zeros(COLUMNS, COLUMNS), DVector::zeros(COLUMNS));
         for own in self.sizes(|_, series| series.to_vec(), PAIR, &half_square_of_the_difference) {
-            plain += own.products(0);
+            gram += own.covariance();
             right += own.right();
         }
-        if plain.trace() <= 0.0 || chance(&plain, &right) > PLAINLY {
+        if gram.trace() <= 0.0 || chance(&gram, &right) > PLAINLY {
             return None;
         }
         let recordings = 0..self.point.recordings.len();
