@@ -14,7 +14,9 @@ use super::tangents::{products, tangents_at};
 use crate::assembly::Assembly;
 use crate::effect::{Effect, Scene};
 use crate::kernel::filter::dot;
-use crate::parameter::Parameter;
+
+/// Squared standard deviations by which a residual plainly goes along a coefficient.
+const PLAINLY: f64 = 9.0;
 
 /// Orthogonal complement of the tangents of a fitted model, by recording.
 pub(super) struct Null<'a> {
@@ -102,8 +104,10 @@ impl<'a> Null<'a> {
             gram[(i, i)] += known;
         }
         // A coefficient that a limit holds against the residual takes nothing off it.
-        let held = held
-            .map_or_else(|| held_by_a_limit(&assembly, &point.fitted.coefficients, &right), <[bool]>::to_vec);
+        let held = held.map_or_else(
+            || held_by_a_limit(&assembly, &point.fitted.coefficients, &right, &gram),
+            <[bool]>::to_vec,
+        );
         let free = |i: usize| gram[(i, i)] > 0.0 && !held.get(i).is_some_and(|held| *held);
         let scale: Vec<f64> =
             (0..count).map(|i| if free(i) { 1.0 / gram[(i, i)].sqrt() } else { 0.0 }).collect();
@@ -293,13 +297,21 @@ impl<'a> Null<'a> {
     }
 }
 
-/// Which coefficients of the base stand at a limit that the residual would have them pass.
-fn held_by_a_limit(assembly: &Assembly, coefficients: &[f64], right: &DVector<f64>) -> Vec<bool> {
-    let held = |((limits, value), right): ((&Parameter, &f64), &f64)| {
-        (*value <= limits.smallest && *right < 0.0) || (*value >= limits.largest && *right > 0.0)
+/// Which coefficients of the base stand at a limit that the residual would plainly have them pass: beside effects that can
+/// take the place of a coefficient it may stand there and want nothing.
+fn held_by_a_limit(
+    assembly: &Assembly,
+    coefficients: &[f64],
+    right: &DVector<f64>,
+    gram: &DMatrix<f64>,
+) -> Vec<bool> {
+    let limits = assembly.coefficients();
+    let held = |i: usize| {
+        let (below, above) = (coefficients[i] <= limits[i].smallest, coefficients[i] >= limits[i].largest);
+        let outwards = (below && right[i] < 0.0) || (above && right[i] > 0.0);
+        outwards && right[i].powi(2) > PLAINLY * gram[(i, i)]
     };
-    let of_the_base = assembly.coefficients().into_iter().take(assembly.base_coefficients());
-    of_the_base.collect::<Vec<_>>().iter().zip(coefficients).zip(right.iter()).map(held).collect()
+    (0..assembly.base_coefficients()).map(held).collect()
 }
 
 fn weigh(series: &mut [f64], weights: &[f64]) {
