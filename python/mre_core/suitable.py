@@ -19,12 +19,12 @@ _ROUGHER = 3.0
 """A force that is so many times as rough as the displacement is in its own column."""
 _RESTS = 0.1
 """Recordings that move less than this share of the others, by their rms, say little of their velocity."""
-_RESOLVED = 0.4
-"""The same of ten samples a cycle."""
 _SMOOTH = 4
 """Order of the differences that show how rough a series is."""
 _JUMPS = 1.5
 """Mean squared step over the variance: 2 for noise, small for motion."""
+_RESOLVED = 0.4
+"""The same of ten samples a cycle."""
 _LEAST = 20
 """Samples that the noise is told by."""
 _EACH = 5

@@ -37,7 +37,7 @@ impl Null<'_> {
             return None;
         }
         let (mut gram, mut right) = (DMatrix::zeros(COLUMNS, COLUMNS), DVector::zeros(COLUMNS));
-        for own in self.sizes(|_, series| series.to_vec(), PAIR, &half_square_of_the_difference) {
+        for own in self.sizes(|_, series| series.to_vec(), PAIR, &half_square_of_the_difference(LARGEST)) {
             gram += own.covariance();
             right += own.right();
         }
@@ -70,10 +70,9 @@ impl Null<'_> {
             let mean = own.iter().sum::<f64>() / own.len().max(1) as f64;
             own.iter().map(|square| square / mean.max(f64::MIN_POSITIVE)).collect()
         });
-        let half_square = |pair: &[f64]| (0.5 * (pair[1] - pair[0]).powi(2)).min(WILD);
         let telling = LeftOut::of(self.assembly().campaign(), r).telling(rows, self.noise().lost(r));
         Squares {
-            noise: left.chunks_exact(PAIR).map(half_square).collect(),
+            noise: left.chunks_exact(PAIR).map(half_square_of_the_difference(WILD)).collect(),
             telling: telling.chunks_exact(PAIR).map(|pair| pair.iter().all(|tells| *tells)).collect(),
             followed,
         }
@@ -131,8 +130,8 @@ impl Squares {
     }
 }
 
-fn half_square_of_the_difference(pair: &[f64]) -> f64 {
-    (0.5 * (pair[1] - pair[0]).powi(2)).min(LARGEST)
+fn half_square_of_the_difference(largest: f64) -> impl Fn(&[f64]) -> f64 {
+    move |pair| (0.5 * (pair[1] - pair[0]).powi(2)).min(largest)
 }
 
 #[cfg(test)]
@@ -148,9 +147,8 @@ mod tests {
         let mut stream = ChaCha8Rng::seed_from_u64(7);
         let followed: Vec<f64> = (0..8000).map(|i| 2.0 * (0.01 * f64::from(i)).sin().powi(2)).collect();
         let left: Vec<f64> = followed.iter().map(|f| (1.0 + 5.0 * f).sqrt() * normal(&mut stream)).collect();
-        let half_square = |pair: &[f64]| 0.5 * (pair[1] - pair[0]).powi(2);
         let squares = Squares {
-            noise: left.chunks_exact(PAIR).map(half_square).collect(),
+            noise: left.chunks_exact(PAIR).map(half_square_of_the_difference(f64::INFINITY)).collect(),
             telling: vec![true; left.len() / PAIR],
             followed: [vec![1.0; left.len()], followed.clone(), vec![0.0; left.len()]],
         };
