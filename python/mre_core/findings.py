@@ -162,10 +162,7 @@ def hidden_effects(raw: Raw) -> tuple[dict[str, Any], ...]:
     named = {effect["id"] for effect in raw["effects"]}
     return tuple(
         {
-            "id": detail["id"],
-            "parameter": detail["parameter"],
-            "up_to": detail["up_to"],
-            "unit": detail["unit"],
+            **{name: detail[name] for name in ("id", "law", "parameter", "up_to", "unit", "with")},
             "whatever_its_size": detail["whatever_its_size"],
             "why": words.hidden(detail, limits[detail["id"]]),
         }

@@ -161,7 +161,10 @@ def hidden(detail: Mapping[str, Any], limit: str) -> str:
     if detail["whatever_its_size"]:
         return f"the model bends to hide it whatever its size: {limit}"
     size = f"{detail['parameter']} = {detail['up_to']:.3g} {detail['unit']}".strip()
-    return f"up to about {size} it has less than an even chance of being detected: {limit}"
+    others = (f"{other['name']} = {other['value']:.3g} {other['unit']}".strip() for other in detail["with"])
+    beside = f" with {', '.join(others)}" if detail["with"] else ""
+    chance = "it has less than an even chance of being detected"
+    return f"up to about {size}{beside} ({detail['law']}) {chance}: {limit}"
 
 
 PLAINLY_UNEVEN = 1e-3

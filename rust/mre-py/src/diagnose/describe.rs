@@ -132,8 +132,11 @@ fn next_test(found: &NextTest) -> Value {
 }
 
 fn absorbed(a: &diagnose::Absorbed) -> Value {
+    let (parameter, up_to, unit) = &a.up_to;
+    let with = |(name, value, unit): &diagnose::Quantity| json!({"name": name, "value": value, "unit": unit});
     json!({
-        "id": a.effect, "parameter": a.parameter.0, "unit": a.parameter.1, "up_to": a.up_to,
+        "id": a.effect, "law": a.law, "parameter": parameter, "unit": unit, "up_to": up_to,
+        "with": a.with.iter().map(with).collect::<Vec<_>>(),
         "whatever_its_size": a.whatever_its_size,
     })
 }

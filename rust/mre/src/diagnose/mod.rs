@@ -82,7 +82,7 @@ mod wander;
 mod weights;
 mod worth;
 
-pub use absorbed::Absorbed;
+pub use absorbed::{Absorbed, Quantity};
 pub use begin::Given;
 pub use blank::{Blank, blank};
 pub use candidates::Candidate;
@@ -98,7 +98,7 @@ pub use normal::Rows;
 pub use prove::Proof;
 pub use refitted::{Refitted, refitted};
 pub use run::{beside, run};
-pub use screen::Score;
+pub use screen::{Score, Trace};
 pub use search::Named;
 pub use settings::Settings;
 pub use strained::strained;

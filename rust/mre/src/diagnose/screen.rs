@@ -18,6 +18,17 @@ use crate::kernel::filter::dot;
 /// Starts whose columns are made at a time: as many as a kernel has lanes.
 const TOGETHER: usize = 8;
 
+/// What a model leaves of a law.
+#[derive(Debug, Clone, Default)]
+pub struct Trace {
+    /// Squared standard deviations, per mean square in N^2 of the force that it adds.
+    pub left: f64,
+    /// Root mean square in N that a unit of its first parameter adds.
+    pub of_a_unit: f64,
+    /// Shapes of the law.
+    pub shape: Vec<f64>,
+}
+
 /// What the score test of one law found.
 #[derive(Clone)]
 pub struct Score {
@@ -33,9 +44,8 @@ pub struct Score {
     pub p_value: f64,
     /// Largest share of its columns' squares that the model's tangents do not absorb, over the starts.
     pub visible: f64,
-    /// Squared standard deviations that are left of it, per mean square in N^2 of the force that it adds, at
-    /// the start where that is most; with the root mean square in N that a unit of its first parameter adds.
-    pub trace: (f64, f64),
+    /// What is left of it at the start where that is most.
+    pub trace: Trace,
     /// Number of tests that its starts amount to.
     pub tests: f64,
 }
@@ -110,10 +120,11 @@ impl Null<'_> {
                 let unit = if coefficients.is_empty() { starts[i / width].first().copied() } else { None };
                 let share = gram[(i, i)] / squares[i];
                 let left = if share < SMALLEST_SHARE { 0.0 } else { gram[(i, i)] / mean_square };
-                (left, mean_square.sqrt() / unit.unwrap_or(1.0).abs())
+                let of_a_unit = mean_square.sqrt() / unit.unwrap_or(1.0).abs();
+                Trace { left, of_a_unit, shape: starts[i / width].clone() }
             })
-            .max_by(|a, b| a.0.total_cmp(&b.0))
-            .unwrap_or((0.0, 0.0));
+            .max_by(|a, b| a.left.total_cmp(&b.left))
+            .unwrap_or_default();
         Some(Score {
             effect,
             start: starts[best].clone(),

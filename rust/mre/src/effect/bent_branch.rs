@@ -151,10 +151,6 @@ impl Effect for BentBranch {
         taus.into_iter().flat_map(bent).collect()
     }
 
-    fn plain_when_small(&self) -> bool {
-        true
-    }
-
     fn columns(&self, scene: &Scene, shape: &[f64]) -> Vec<Vec<f64>> {
         let [tau, bend] = [shape[0], shape[1]];
         let (time, v) = (scene.time, scene.velocity);

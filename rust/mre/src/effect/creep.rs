@@ -18,7 +18,8 @@
 //! Biomechanics: Mechanical Properties of Living Tissues, 1981.
 //! Known limit: with a mean displacement and in one recording it cannot be told from drift.
 
-use super::maxwell::{branch, branches};
+use super::before::Before;
+use super::maxwell::branches;
 use super::{
     About, Effect, Factors, Scene, Sizes, ideal_above, ideal_below, order_within, orders, positive, within,
 };
@@ -57,8 +58,8 @@ fn fading(scene: &Scene, shortest: f64, spectrum: impl Fn(f64) -> f64) -> Vec<f6
     let count = (A_DECADE * decades).ceil() as usize + 1;
     let weight = decades / (count - 1) as f64;
     let taus = orders(shortest, shortest * 10.0_f64.powf(decades), count);
-    // From rest: a slow spectrum with an unknown past would be slow noise.
-    branches(scene, None, taus.into_iter().map(|tau| (tau, weight * spectrum(tau))))
+    // From rest or a steady motion: a slow spectrum with another past, unknown, would be slow noise.
+    branches(scene, Before::of(scene), taus.into_iter().map(|tau| (tau, weight * spectrum(tau))))
 }
 
 impl Creep {
@@ -160,7 +161,7 @@ impl Effect for Creep {
                 vec![fading(scene, SHORTEST * shape[0], |tau| (-shape[0] / tau).exp())]
             }
             Self::Box => vec![fading(scene, shape[0], |_| 1.0)],
-            Self::Slow => vec![branch(scene, shape[0])],
+            Self::Slow => vec![branches(scene, Before::of(scene), [(shape[0], 1.0)].into_iter())],
             _ => Vec::new(),
         }
     }

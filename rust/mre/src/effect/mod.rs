@@ -170,9 +170,8 @@ pub trait Effect: Send + Sync {
         false
     }
 
-    /// True where the law becomes the plainest of its effect under small motions: that it would be seen does not say that
-    /// that one would.
-    fn plain_when_small(&self) -> bool {
+    /// True where the law is what its effect comes to in a steady motion: it has no memory that a run-in would show.
+    fn is_of_steady_motion(&self) -> bool {
         false
     }
 

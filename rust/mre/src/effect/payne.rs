@@ -162,6 +162,10 @@ impl Effect for Payne {
         }
     }
 
+    fn is_of_steady_motion(&self) -> bool {
+        self.by == Amplitude::Recording
+    }
+
     fn factors(&self, scene: &Scene, shape: &[f64]) -> Option<Factors> {
         let kraus = |amplitude: Vec<f64>, m: f64| -> Vec<f64> {
             amplitude.iter().map(|a| (a / shape[1]).powf(m)).map(|a| a / (1.0 + a)).collect()
