@@ -1,4 +1,4 @@
-"""What recordings would hide: effects that leave nothing are listed, and those that leave something are not."""
+"""What recordings would hide: effects that leave nothing are listed, those that leave something are not."""
 
 import mre_core
 import numpy as np

@@ -38,6 +38,10 @@ def test_a_late_force_of_a_device_of_little_damping_is_named(seed: int) -> None:
     found = diagnosed(0.05, 0.005, seed)
     assert found.verdict == "missing_physics", found
     assert "time_delay" in {one for e in found.effects for one in (e.id, *e.indistinguishable_from)}
+    (alone,) = found.pressed["base"]
+    assert (alone["parameter"], alone["value"], alone["unit"]) == ("c0", 0.0, "N s/mm")
+    assert "limit that the recordings would have it pass: c0 = 0 N s/mm." in str(found)
+    assert found.to_dict()["pressed"] == {"base": [alone], "final": []}
 
 
 @pytest.mark.parametrize("seed", [1, 2])
@@ -49,4 +53,5 @@ def test_a_damping_below_zero_is_not_noise(seed: int) -> None:
 @pytest.mark.parametrize("seed", range(4))
 def test_a_device_without_damping_is_adequate(seed: int) -> None:
     """At the limit by chance in every other draw."""
-    assert diagnosed(0.0, 0.0, seed).verdict == "adequate"
+    found = diagnosed(0.0, 0.0, seed)
+    assert (found.verdict, found.pressed) == ("adequate", {})

@@ -23,6 +23,7 @@ from .findings import (
     missing_effects,
     next_test_of,
     place_of,
+    pressed_in,
     rms_of_force,
     unknown_of,
 )
@@ -169,6 +170,9 @@ def diagnose(
     if raw["effects"]:
         in_order = sorted(raw["effects"], key=lambda effect: int(effect["place"]))
         final, last = model(raw["final_levels"], [*raw["final_base_effects"], *in_order]), after
+    pressed = {"base": pressed_in(base_model, raw["base_levels"])}
+    if raw["effects"]:
+        pressed["final"] = pressed_in(final, raw["final_levels"])
     names = labels([recording.name for recording in everything])
     return Diagnosis(
         base=name,
@@ -203,6 +207,7 @@ def diagnose(
         interrupted=raw["interrupted"],
         one_specimen=all(r.past is not None for r in everything),
         velocity_derived=anew.names,
+        pressed=pressed if any(pressed.values()) else {},
     )
 
 

@@ -1,6 +1,6 @@
 """What a diagnosis says: verdict, effects, where, and the models before and after."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from math import isfinite
 from typing import Any
@@ -149,6 +149,10 @@ class Diagnosis:
     velocity_derived: tuple[str, ...] = ()
     """Recordings whose velocity was a difference quotient of the displacement, or smoothed, and was derived
     anew."""
+    pressed: Mapping[str, Sequence[Mapping[str, Any]]] = field(default_factory=dict)
+    """Parameters that the recordings would plainly have pass a limit of what is physical (a damping below
+    zero), of the base model alone (``"base"``) and beside the effects (``"final"``): evidence that something
+    is missing, and no properties of the device."""
 
     @property
     def absorbed(self) -> tuple[str, ...]:
@@ -171,6 +175,7 @@ class Diagnosis:
             told.append(words.WORSE)
         if self.verdict in ("adequate", "missing_physics"):
             told.append(words.noise(self.p_values.get("even")))
+        told.extend(words.pressed(self.pressed))
         if self.refitted is not None:
             told.append(words.refitted(self.refitted.rms_as_given, self.refitted.rms_fitted))
         if self.one_specimen:
@@ -213,4 +218,5 @@ class Diagnosis:
             "interrupted": self.interrupted,
             "one_specimen": self.one_specimen,
             "velocity_derived": list(self.velocity_derived),
+            "pressed": {model: list(map(dict, found)) for model, found in self.pressed.items()},
         }

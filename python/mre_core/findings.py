@@ -10,7 +10,7 @@ from . import _core, words
 from ._core import Recording
 from .diagnosis import Comparison, Estimate, MissingEffect
 from .effects import Effect
-from .model import Level
+from .model import Level, Model
 from .told_apart import check
 
 Series = NDArray[np.float64]
@@ -44,6 +44,23 @@ def levels_of(
         for current, group in zip(currents, groups, strict=True)
         for level in group["levels"]
     )
+
+
+def pressed_in(model: Model, groups: Sequence[Raw]) -> list[dict[str, Any]]:
+    """Parameters of a base model that the recordings would have pass a limit."""
+    if not groups:
+        return []
+    pressed = [level["pressed"] for group in groups for level in group["levels"]]
+    return [
+        {
+            "parameter": name,
+            "value": level.parameters[name],
+            "unit": model.units[name],
+            "current_A": level.current,
+        }
+        for level, names in zip(model.levels, pressed, strict=True)
+        for name in names
+    ]
 
 
 def effect_of(found: Raw) -> Effect:

@@ -58,6 +58,30 @@ def at_the_end(effects: Mapping[str, Sequence[str]]) -> str:
     )
 
 
+def pressed(found: Mapping[str, Sequence[Mapping[str, Any]]]) -> list[str]:
+    """Say which parameters stand at a limit that the recordings would have them pass, by model."""
+
+    def stands(one: Mapping[str, Any]) -> str:
+        at = "" if one["current_A"] is None else f"at {one['current_A']:g} A"
+        return " ".join(filter(None, (f"{one['parameter']} = {one['value']:g}", one["unit"], at)))
+
+    alone, beside = (listed([stands(one) for one in found.get(model, ())]) for model in ("base", "final"))
+    if "final" not in found:
+        alone, beside = "", alone
+    return [
+        *(
+            [f"Alone, the base model stands at a limit that the recordings would have it pass: {alone}."]
+            if alone
+            else []
+        ),
+        *(
+            [f"At a limit that the recordings would have it pass, and no property of the device: {beside}."]
+            if beside
+            else []
+        ),
+    ]
+
+
 def refitted(rms_as_given: float, rms_fitted: float) -> str:
     """Say what fitted parameters would leave where they were kept; rms errors in N."""
     return (

@@ -24,6 +24,7 @@ _SHOWN = {
         "interrupted",
         "one_specimen",
         "velocity_derived",
+        "pressed",
         "blank",
     ),
 }

@@ -32,7 +32,17 @@ pub struct Parameter {
     pub ideal: Ideal,
 }
 
+/// Squared standard deviations by which data plainly go along a parameter.
+const PLAINLY: f64 = 9.0;
+
 impl Parameter {
+    /// True where a value stands at a limit that data would plainly have it pass: half their sum of squares falls by `slope`
+    /// for a unit more, and curves by `curvature`.
+    pub(crate) fn is_pressed(&self, value: f64, slope: f64, curvature: f64) -> bool {
+        let outwards = (value <= self.smallest && slope < 0.0) || (value >= self.largest && slope > 0.0);
+        outwards && slope * slope > PLAINLY * curvature
+    }
+
     /// True where this value in the unit box is an ideal of its law.
     pub(crate) fn is_ideal(&self, unit: f64) -> bool {
         (unit <= 0.0 && self.ideal.lower) || (unit >= 1.0 && self.ideal.upper)

@@ -195,7 +195,8 @@ fn place(place: &Place, strength: f64) -> Value {
     }
 }
 
-/// Parameters of the model for every group, in the model's order, with their intervals where a group has one level.
+/// Parameters of the model for every group, in the model's order, with their intervals and which of them the recordings
+/// press beyond a limit where a group has one level.
 fn levels(base: &Base, estimates: &Estimates) -> Vec<Value> {
     let (mut coefficients, mut shapes) = (estimates.coefficients.iter(), estimates.shapes.iter());
     base.groups()
@@ -215,7 +216,12 @@ fn levels(base: &Base, estimates: &Estimates) -> Vec<Value> {
                 1 => own.iter().map(|e| e.and_then(ends)).collect(),
                 _ => vec![None; levels[0].values.len()],
             };
-            let level = |l: &Level| json!({"current": l.current, "values": l.values, "intervals": intervals});
+            let symbols = group.problem.parameters().iter().zip(&own);
+            let pressed = symbols.filter(|(_, e)| levels.len() == 1 && e.is_some_and(|e| e.pressed));
+            let pressed: Vec<&str> = pressed.map(|(p, _)| p.name.as_str()).collect();
+            let level = |l: &Level| {
+                json!({"current": l.current, "values": l.values, "intervals": intervals, "pressed": pressed})
+            };
             json!({"members": group.members, "levels": levels.iter().map(level).collect::<Vec<_>>()})
         })
         .collect()

@@ -26,7 +26,7 @@ pub struct Estimate {
     pub low: f64,
     /// Upper end; infinite ends mean that the recordings do not determine the parameter.
     pub high: f64,
-    /// True where it lies on an end of its box that is no ideal of its law, and the recordings press it there.
+    /// True where it lies at a limit, or on an end of its box that is no ideal of its law, and the recordings press it there.
     pub pressed: bool,
 }
 
@@ -66,7 +66,8 @@ pub(super) fn estimates(assembly: &Assembly, data: Data, unit: &[f64]) -> Estima
         .map(|(i, (p, value))| {
             let half = WIDTH * deviation(i);
             let (low, high) = ((value - half).max(p.smallest), (value + half).min(p.largest));
-            Estimate { name: p.name, unit: p.unit, value: *value, low, high, pressed: false }
+            let pressed = p.is_pressed(*value, system.right[i], system.gram[(i, i)]);
+            Estimate { name: p.name, unit: p.unit, value: *value, low, high, pressed }
         })
         .collect();
     let first = coefficients.len();

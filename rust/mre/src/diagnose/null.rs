@@ -15,9 +15,6 @@ use crate::assembly::Assembly;
 use crate::effect::{Effect, Scene};
 use crate::kernel::filter::dot;
 
-/// Squared standard deviations by which a residual plainly goes along a coefficient.
-const PLAINLY: f64 = 9.0;
-
 /// Orthogonal complement of the tangents of a fitted model, by recording.
 pub(super) struct Null<'a> {
     assembly: Assembly<'a>,
@@ -306,11 +303,7 @@ fn held_by_a_limit(
     gram: &DMatrix<f64>,
 ) -> Vec<bool> {
     let limits = assembly.coefficients();
-    let held = |i: usize| {
-        let (below, above) = (coefficients[i] <= limits[i].smallest, coefficients[i] >= limits[i].largest);
-        let outwards = (below && right[i] < 0.0) || (above && right[i] > 0.0);
-        outwards && right[i].powi(2) > PLAINLY * gram[(i, i)]
-    };
+    let held = |i: usize| limits[i].is_pressed(coefficients[i], right[i], gram[(i, i)]);
     (0..assembly.base_coefficients()).map(held).collect()
 }
 
