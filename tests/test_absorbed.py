@@ -18,8 +18,8 @@ def steady(frequency: float, amplitude: float, seed: int, late: float = 0.0) -> 
     seen = phase - 2 * np.pi * frequency * late
     force = 5.0 * amplitude * np.sin(seen) + 0.3 * velocity * np.cos(seen) + 0.8
     force += NOISE * force.std() * np.random.default_rng(seed).normal(size=len(time))
-    motion = {"velocity": velocity * np.cos(phase), "name": f"{frequency:g} Hz, {amplitude:g} mm, {seed}"}
-    return Recording(time, amplitude * np.sin(phase), force, **motion)
+    name = f"{frequency:g} Hz, {amplitude:g} mm, {seed}"
+    return Recording(time, amplitude * np.sin(phase), force, velocity=velocity * np.cos(phase), name=name)
 
 
 def with_run_in(recording: Recording, hertz: float) -> Recording:
