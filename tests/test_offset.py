@@ -46,6 +46,8 @@ def test_an_offset_that_drifts_is_named_with_both_sizes(offset: float, line: flo
     assert found.fit.noise_rms == pytest.approx(NOISE, rel=0.1)
     for name, parameter in found.effects[0].parameters.items():
         assert parameter.value == pytest.approx(offset if name.startswith("D_0") else line, abs=0.1)
+        assert parameter.low is not None and parameter.high is not None
+        assert 0 < parameter.high - parameter.low < 1
 
 
 def test_an_offset_of_kept_parameters_is_told_as_one_of_them_too() -> None:
@@ -76,3 +78,7 @@ def test_zeros_of_recordings_in_motion_are_off_and_do_not_settle() -> None:
         recordings.append(Recording(time, x, force, velocity=v, name=f"r{i}"))
     found = mre_core.diagnose(recordings, "sinh", seed=1)
     assert [(effect.id, effect.law) for effect in found.effects] == [("force_drift", "constant")]
+    # F0 and the zeros share a constant that nothing tells.
+    assert all(
+        parameter.low is None and parameter.high is None for parameter in found.effects[0].parameters.values()
+    )

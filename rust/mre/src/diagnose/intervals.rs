@@ -10,6 +10,12 @@ use crate::parameter::Scale;
 /// Share of a box by which a parameter is moved off its end to see what that costs.
 const INWARD: f64 = 0.1;
 
+/// Added to the squares of columns of length one.
+const RIDGE: f64 = 1e-12;
+/// A column of length one whose variance is inflated by more is those of others (an offset of every recording beside one of
+/// them all): nothing but the ridge holds its coefficient.
+const REDUNDANT: f64 = 0.01 / RIDGE;
+
 /// 95 % of a normal variable lie within so many standard deviations.
 const WIDTH: f64 = 1.959_963_984_540_054;
 
@@ -50,12 +56,14 @@ pub(super) fn estimates(assembly: &Assembly, data: Data, unit: &[f64]) -> Estima
         .collect();
     let matrix = DMatrix::from_fn(count, count, |i, j| {
         let size = scale[i] * scale[j];
-        let own = if i == j { 1e-12 } else { 0.0 };
+        let own = if i == j { RIDGE } else { 0.0 };
         if size > 0.0 { system.gram[(i, j)] / size + own } else { f64::from(u8::from(i == j)) }
     });
     let inverse = matrix.try_inverse();
     let deviation = |i: usize| match &inverse {
-        Some(inverse) if scale[i] > 0.0 => inverse[(i, i)].max(0.0).sqrt() / scale[i],
+        Some(inverse) if scale[i] > 0.0 && inverse[(i, i)] < REDUNDANT => {
+            inverse[(i, i)].max(0.0).sqrt() / scale[i]
+        }
         _ => f64::INFINITY,
     };
     let coefficients: Vec<Estimate> = assembly
