@@ -4,6 +4,7 @@ import mre_core
 import numpy as np
 import pytest
 from mre_core import Recording
+from mre_core.words import hidden
 
 STEP = 0.005
 NOISE = 0.01
@@ -41,7 +42,7 @@ MEMORY = {"maxwell_relaxation", "fractional_viscoelasticity", "creep"}
 
 
 @pytest.mark.parametrize(
-    ("recordings", "hidden", "shown"),
+    ("recordings", "listed", "shown"),
     [
         (
             [steady(2.0, 6.0, 0)],
@@ -58,10 +59,10 @@ MEMORY = {"maxwell_relaxation", "fractional_viscoelasticity", "creep"}
     ],
     ids=["one sine", "two amplitudes", "two frequencies", "from rest"],
 )
-def test_what_steady_recordings_hide(recordings: list[Recording], hidden: set[str], shown: set[str]) -> None:
+def test_what_steady_recordings_hide(recordings: list[Recording], listed: set[str], shown: set[str]) -> None:
     found = mre_core.diagnose(recordings, "kelvin_voigt", seed=1)
     assert found.verdict == "adequate"
-    assert hidden <= set(found.absorbed)
+    assert listed <= set(found.absorbed)
     assert not shown & set(found.absorbed)
 
 
@@ -70,18 +71,50 @@ def one_sine() -> mre_core.Diagnosis:
     return mre_core.diagnose([steady(2.0, 6.0, 0)], "kelvin_voigt", seed=1)
 
 
-def test_a_force_that_is_late_by_the_size_listed_is_not_found(one_sine: mre_core.Diagnosis) -> None:
-    (detail,) = (d for d in one_sine.absorbed_detail if d["id"] == "time_delay")
-    assert (detail["parameter"], detail["unit"], detail["law"]) == ("d", "s", "pure delay")
-    late = mre_core.diagnose([steady(2.0, 6.0, 0, detail["up_to"])], "kelvin_voigt", seed=1)
-    assert late.verdict == "adequate"
-
-
 def test_a_size_comes_with_its_law_and_the_other_parameters(one_sine: mre_core.Diagnosis) -> None:
     for detail in one_sine.absorbed_detail:
         sized = f"{detail['parameter']} = {detail['up_to']:.3g} {detail['unit']}".strip()
         assert detail["whatever_its_size"] != (sized in detail["why"])
     branch = next(d for d in one_sine.absorbed_detail if d["id"] == "maxwell_relaxation")
-    (tau,) = branch["with"]
-    assert (tau["name"], tau["unit"]) == ("tau", "s")
-    assert branch["whatever_its_size"] or f"tau = {tau['value']:.3g} s (one branch)" in branch["why"]
+    assert (branch["law"], [other["name"] for other in branch["with"]]) == ("one branch", ["tau"])
+    detail = {"parameter": "k_m", "up_to": 2.0, "unit": "N/mm", "law": "one branch", "limit": "it is stiff"}
+    detail |= {"with": [{"name": "tau", "value": 0.1, "unit": "s"}], "whatever_its_size": False}
+    chance = "it has less than an even chance of being detected"
+    assert hidden(detail) == f"up to about k_m = 2 N/mm with tau = 0.1 s (one branch) {chance}: it is stiff"
+
+
+def test_an_effect_is_found_well_above_the_size_listed_and_not_below() -> None:
+    """Two frequencies near each other: a delay is nearly a spring and a dashpot."""
+
+    def recordings(late: float = 0.0) -> list[Recording]:
+        return [steady(hertz, 6.0, seed, late) for seed, hertz in enumerate((2.0, 2.02))]
+
+    before = mre_core.diagnose(recordings(), "kelvin_voigt", seed=1)
+    (detail,) = (d for d in before.absorbed_detail if d["id"] == "time_delay")
+    assert (detail["parameter"], detail["unit"], detail["law"]) == ("d", "s", "pure delay")
+    below, above = (
+        mre_core.diagnose(recordings(share * detail["up_to"]), "kelvin_voigt", seed=1) for share in (0.4, 2.5)
+    )
+    assert below.verdict == "adequate"
+    assert above.verdict != "adequate"
+
+
+def test_softening_by_amplitude_is_not_hidden_where_the_amplitude_grows() -> None:
+    time = np.arange(0, 20, STEP)
+    turn, growing = 2 * np.pi * 2.0, 2 + 0.2 * time
+    x = growing * np.sin(turn * time + 0.4)
+    v = 0.2 * np.sin(turn * time + 0.4) + turn * growing * np.cos(turn * time + 0.4)
+    force = 5.0 * x + 0.3 * v + 0.2 * np.random.default_rng(3).normal(size=len(time))
+    found = mre_core.diagnose(Recording(time, x, force, velocity=v), "kelvin_voigt", seed=1)
+    assert found.verdict == "adequate"
+    assert "payne_softening" not in found.absorbed
+
+
+def test_a_test_at_the_same_amplitude_shows_no_softening_by_amplitude(one_sine: mre_core.Diagnosis) -> None:
+    """That a motion begins from rest in it says nothing of what steady motions hide."""
+    assert one_sine.next_test is not None
+    tests = {
+        test["excitation"]: test["chances"] for test in (one_sine.next_test, *one_sine.next_test["others"])
+    }
+    assert tests["slow_sine"]["payne_softening"] == 0
+    assert max(chances["payne_softening"] for chances in tests.values()) == 1

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _core, words
+from . import words
 from ._core import Recording
 from .diagnosis import Comparison, Estimate, MissingEffect
 from .effects import Effect
@@ -175,13 +175,12 @@ def blank_of(raw: Raw, stated: float) -> dict[str, Any] | None:
 
 def hidden_effects(raw: Raw) -> tuple[dict[str, Any], ...]:
     """Effects that the recordings would hide."""
-    limits = {row["id"]: row["limit"] for row in reversed(_core.catalogue())}
     named = {effect["id"] for effect in raw["effects"]}
     return tuple(
         {
             **{name: detail[name] for name in ("id", "law", "parameter", "up_to", "unit", "with")},
             "whatever_its_size": detail["whatever_its_size"],
-            "why": words.hidden(detail, limits[detail["id"]]),
+            "why": words.hidden(detail),
         }
         for detail in raw["absorbed"]
         if detail["id"] not in named

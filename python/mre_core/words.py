@@ -65,21 +65,10 @@ def pressed(found: Mapping[str, Sequence[Mapping[str, Any]]]) -> list[str]:
         at = "" if one["current_A"] is None else f"at {one['current_A']:g} A"
         return " ".join(filter(None, (f"{one['parameter']} = {one['value']:g}", one["unit"], at)))
 
-    alone, beside = (listed([stands(one) for one in found.get(model, ())]) for model in ("base", "final"))
-    if "final" not in found:
-        alone, beside = "", alone
-    return [
-        *(
-            [f"Alone, the base model stands at a limit that the recordings would have it pass: {alone}."]
-            if alone
-            else []
-        ),
-        *(
-            [f"At a limit that the recordings would have it pass, and no property of the device: {beside}."]
-            if beside
-            else []
-        ),
-    ]
+    last = "At a limit that the recordings would have it pass, and no property of the device"
+    alone = "Alone, the base model stands at a limit that the recordings would have it pass"
+    said = {"base": alone if "final" in found else last, "final": last}
+    return [f"{said[model]}: {listed([stands(one) for one in of])}." for model, of in found.items() if of]
 
 
 def refitted(rms_as_given: float, rms_fitted: float) -> str:
@@ -180,15 +169,15 @@ def mismatch(found: Mapping[str, Any]) -> str:
     return f"{where[0].upper()}{where[1:]}: {what}."
 
 
-def hidden(detail: Mapping[str, Any], limit: str) -> str:
+def hidden(detail: Mapping[str, Any]) -> str:
     """Say why recordings hide an effect."""
     if detail["whatever_its_size"]:
-        return f"the model bends to hide it whatever its size: {limit}"
+        return f"even half of the force may be hidden, as the model bends or by the noise: {detail['limit']}"
     size = f"{detail['parameter']} = {detail['up_to']:.3g} {detail['unit']}".strip()
-    others = (f"{other['name']} = {other['value']:.3g} {other['unit']}".strip() for other in detail["with"])
-    beside = f" with {', '.join(others)}" if detail["with"] else ""
+    others = [f"{other['name']} = {other['value']:.3g} {other['unit']}".strip() for other in detail["with"]]
+    beside = f" with {listed(others)}" if others else ""
     chance = "it has less than an even chance of being detected"
-    return f"up to about {size}{beside} ({detail['law']}) {chance}: {limit}"
+    return f"up to about {size}{beside} ({detail['law']}) {chance}: {detail['limit']}"
 
 
 PLAINLY_UNEVEN = 1e-3

@@ -24,7 +24,6 @@ _SHOWN = {
         "interrupted",
         "one_specimen",
         "velocity_derived",
-        "pressed",
         "blank",
     ),
 }

@@ -32,15 +32,16 @@ pub struct Parameter {
     pub ideal: Ideal,
 }
 
-/// Squared standard deviations by which data plainly go along a parameter.
+/// Squared standard deviations by which a residual plainly goes along a parameter.
 const PLAINLY: f64 = 9.0;
 
 impl Parameter {
-    /// True where a value stands at a limit that data would plainly have it pass: half their sum of squares falls by `slope`
-    /// for a unit more, and curves by `curvature`.
-    pub(crate) fn is_pressed(&self, value: f64, slope: f64, curvature: f64) -> bool {
+    /// True where a value stands at a limit of what is physical that a residual would plainly have it pass: its product with
+    /// the parameter's column, whitened, is `slope`, and the square of the column `square`. What other parameters could take
+    /// off instead is not counted: only what stands without them is plain.
+    pub(crate) fn is_pressed(&self, value: f64, slope: f64, square: f64) -> bool {
         let outwards = (value <= self.smallest && slope < 0.0) || (value >= self.largest && slope > 0.0);
-        outwards && slope * slope > PLAINLY * curvature
+        outwards && slope * slope > PLAINLY * square
     }
 
     /// True where this value in the unit box is an ideal of its law.

@@ -1,5 +1,6 @@
 //! Start and stop transients of a steady test, found from the strokes between reversals.
 
+use crate::effect::starts_in_motion;
 use crate::error::{Error, Result};
 use crate::recording::{Recording, extent};
 
@@ -38,12 +39,16 @@ pub fn exclude(recording: &Recording, names: &[&str]) -> Result<Recording> {
     recording.with_scored(scored)
 }
 
+/// Lengths between reversals.
+fn strokes(displacement: &[f64], reversals: &[usize]) -> Vec<f64> {
+    reversals.windows(2).map(|pair| (displacement[pair[1]] - displacement[pair[0]]).abs()).collect()
+}
+
 /// First and last sample of the steady part: from the first to the last reversal that bounds a
 /// typical stroke.
 fn steady_part(displacement: &[f64]) -> Option<(usize, usize)> {
     let reversals = reversals(displacement);
-    let strokes: Vec<f64> =
-        reversals.windows(2).map(|pair| (displacement[pair[1]] - displacement[pair[0]]).abs()).collect();
+    let strokes = strokes(displacement, &reversals);
     let typical = weighted_median(&strokes)?;
     let near = |stroke: &f64| (stroke - typical).abs() <= TOLERANCE * typical;
     let (steady, path) = (strokes.iter().filter(|s| near(s)).sum::<f64>(), strokes.iter().sum::<f64>());
@@ -53,6 +58,16 @@ fn steady_part(displacement: &[f64]) -> Option<(usize, usize)> {
     let first = strokes.iter().position(near)?;
     let last = strokes.iter().rposition(near)?;
     Some((reversals[first], reversals[last + 1]))
+}
+
+/// True where a recording is cut from a steady motion: all of its strokes but the first and the last, which may be cut, are
+/// alike.
+pub(crate) fn is_steady(recording: &Recording) -> bool {
+    let displacement = recording.displacement();
+    let strokes = strokes(displacement, &reversals(displacement));
+    let whole = strokes.get(1..strokes.len().saturating_sub(1)).unwrap_or_default();
+    let Some(typical) = weighted_median(whole) else { return false };
+    starts_in_motion(recording) && whole.iter().all(|stroke| (stroke - typical).abs() <= TOLERANCE * typical)
 }
 
 /// Samples at which the displacement turns by more than a tenth of its range.

@@ -135,7 +135,7 @@ fn absorbed(a: &diagnose::Absorbed) -> Value {
     let (parameter, up_to, unit) = &a.up_to;
     let with = |(name, value, unit): &diagnose::Quantity| json!({"name": name, "value": value, "unit": unit});
     json!({
-        "id": a.effect, "law": a.law, "parameter": parameter, "unit": unit, "up_to": up_to,
+        "id": a.effect, "law": a.law, "limit": a.limit, "parameter": parameter, "unit": unit, "up_to": up_to,
         "with": a.with.iter().map(with).collect::<Vec<_>>(),
         "whatever_its_size": a.whatever_its_size,
     })
@@ -217,7 +217,7 @@ fn levels(base: &Base, estimates: &Estimates) -> Vec<Value> {
                 _ => vec![None; levels[0].values.len()],
             };
             let symbols = group.problem.parameters().iter().zip(&own);
-            let pressed = symbols.filter(|(_, e)| levels.len() == 1 && e.is_some_and(|e| e.pressed));
+            let pressed = symbols.filter(|(_, e)| levels.len() == 1 && e.is_some_and(|e| e.beyond));
             let pressed: Vec<&str> = pressed.map(|(p, _)| p.name.as_str()).collect();
             let level = |l: &Level| {
                 json!({"current": l.current, "values": l.values, "intervals": intervals, "pressed": pressed})

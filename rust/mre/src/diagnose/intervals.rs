@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 use super::least_squares::Data;
 use super::point::Point;
 use crate::assembly::Assembly;
-use crate::parameter::Scale;
+use crate::parameter::{Parameter, Scale};
 
 /// Share of a box by which a parameter is moved off its end to see what that costs.
 const INWARD: f64 = 0.1;
@@ -32,8 +32,10 @@ pub struct Estimate {
     pub low: f64,
     /// Upper end; infinite ends mean that the recordings do not determine the parameter.
     pub high: f64,
-    /// True where it lies at a limit, or on an end of its box that is no ideal of its law, and the recordings press it there.
+    /// True where it lies on an end of its box that is no ideal of its law, and the recordings press it there.
     pub pressed: bool,
+    /// True where it stands at a limit of what is physical that the recordings would plainly have it pass.
+    pub beyond: bool,
 }
 
 /// Coefficients and shapes with their intervals.
@@ -66,6 +68,8 @@ pub(super) fn estimates(assembly: &Assembly, data: Data, unit: &[f64]) -> Estima
         }
         _ => f64::INFINITY,
     };
+    let beyond =
+        |i: usize, p: &Parameter, value: f64| p.is_pressed(value, system.right[i], system.gram[(i, i)]);
     let coefficients: Vec<Estimate> = assembly
         .coefficients()
         .into_iter()
@@ -74,8 +78,8 @@ pub(super) fn estimates(assembly: &Assembly, data: Data, unit: &[f64]) -> Estima
         .map(|(i, (p, value))| {
             let half = WIDTH * deviation(i);
             let (low, high) = ((value - half).max(p.smallest), (value + half).min(p.largest));
-            let pressed = p.is_pressed(*value, system.right[i], system.gram[(i, i)]);
-            Estimate { name: p.name, unit: p.unit, value: *value, low, high, pressed }
+            let beyond = beyond(i, &p, *value);
+            Estimate { name: p.name, unit: p.unit, value: *value, low, high, pressed: false, beyond }
         })
         .collect();
     let first = coefficients.len();
@@ -105,10 +109,12 @@ pub(super) fn estimates(assembly: &Assembly, data: Data, unit: &[f64]) -> Estima
                 u if u >= 1.0 && !p.ideal.upper => Some(system.right[first + j]),
                 _ => None,
             };
+            let beyond = beyond(first + j, p, value);
             let deviation = deviation(first + j);
             let cost = |slope: f64| 2.0 * INWARD * slope.max(0.0) + (INWARD / deviation).powi(2);
             let pressed = outward.is_some_and(|slope| deviation > 0.0 && cost(slope) > WIDTH.powi(2));
-            Estimate { name: p.name.clone(), unit: p.unit, value, low: low.max(p.smallest), high, pressed }
+            let low = low.max(p.smallest);
+            Estimate { name: p.name.clone(), unit: p.unit, value, low, high, pressed, beyond }
         })
         .collect();
     Estimates { coefficients, shapes }

@@ -1,6 +1,6 @@
 //! The whole diagnosis.
 
-use super::absorbed::absorbed;
+use super::absorbed::Detection;
 use super::alternatives::{Alternatives, rivals};
 use super::begin::{Begun, Given, begin};
 use super::candidates::by_effect;
@@ -56,7 +56,9 @@ pub fn run<'a>(
     let alone = Null::new(&begun.assembly, data, &base_fit.unit);
     let places = monitor
         .stage(Stage::Location, || alone.as_ref().map_or_else(Vec::new, |n| locate(n, settings.false_alarm)));
-    let absorbed = monitor.stage(Stage::Identifiability, || absorbed(&named, campaign, settings.false_alarm));
+    let absorbed = monitor.stage(Stage::Identifiability, || {
+        Detection::beside(&named, settings.false_alarm).hidden(&named.scores, campaign)
+    });
     let absorbed = absorbed.unwrap_or_default();
     let mut nearest = Vec::new();
     if verdict == Verdict::Unexplained {

@@ -23,8 +23,10 @@ const TOGETHER: usize = 8;
 pub struct Trace {
     /// Squared standard deviations, per mean square in N^2 of the force that it adds.
     pub left: f64,
-    /// Root mean square in N that a unit of its first parameter adds.
+    /// Root mean square in N that a unit of the coefficient adds, or of the first shape where there is none.
     pub of_a_unit: f64,
+    /// Place of the coefficient.
+    pub coefficient: usize,
     /// Shapes of the law.
     pub shape: Vec<f64>,
 }
@@ -121,7 +123,8 @@ impl Null<'_> {
                 let share = gram[(i, i)] / squares[i];
                 let left = if share < SMALLEST_SHARE { 0.0 } else { gram[(i, i)] / mean_square };
                 let of_a_unit = mean_square.sqrt() / unit.unwrap_or(1.0).abs();
-                Trace { left, of_a_unit, shape: starts[i / width].clone() }
+                let coefficient = i % coefficients.len().max(1);
+                Trace { left, of_a_unit, coefficient, shape: starts[i / width].clone() }
             })
             .max_by(|a, b| a.left.total_cmp(&b.left))
             .unwrap_or_default();

@@ -13,7 +13,7 @@
 //! below it as `exp(-t_0/tau)`, here up to a hundred times the longest recording: the same for all, so that none is
 //! stiffer.
 //! Its spectrum may also begin at once (a box spectrum). What ages goes on ageing from one recording of a specimen to the
-//! next, without the rests between them.
+//! next, without the rests between them. A recording that is cut from a steady motion has moved so before.
 //! Reference: Findley, Lai and Onaran, Creep and Relaxation of Nonlinear Viscoelastic Materials, 1976; Fung,
 //! Biomechanics: Mechanical Properties of Living Tissues, 1981.
 //! Known limit: with a mean displacement and in one recording it cannot be told from drift.
@@ -52,7 +52,7 @@ const SHORTEST: f64 = 0.2;
 /// The longest in durations of the longest recording: beyond, a branch is a spring.
 const LONGEST: f64 = 100.0;
 
-/// Relaxation from rest of one unit of stiffness a decade, from the shortest time on, with a spectrum.
+/// Relaxation of one unit of stiffness a decade, from the shortest time on, with a spectrum.
 fn fading(scene: &Scene, shortest: f64, spectrum: impl Fn(f64) -> f64) -> Vec<f64> {
     let decades = (LONGEST * scene.sizes.duration / shortest).log10().max(1.0);
     let count = (A_DECADE * decades).ceil() as usize + 1;

@@ -2,7 +2,7 @@
 
 use super::bench::Bench;
 use super::imagined::Imagined;
-use crate::diagnose::absorbed::{hidden_among, ids_of};
+use crate::diagnose::absorbed::Detection;
 use crate::diagnose::least_squares::refine;
 use crate::diagnose::null::Null;
 use crate::diagnose::screen::Score;
@@ -13,14 +13,13 @@ use crate::diagnose::settings::Settings;
 pub(super) struct Hidden<'h> {
     /// Their ids.
     pub(super) ids: &'h [&'static str],
-    /// Effects that were tested for.
-    count: usize,
+    detection: Detection,
     settings: &'h Settings,
 }
 
 impl<'h> Hidden<'h> {
     pub(super) fn new(ids: &'h [&'static str], named: &Named, settings: &'h Settings) -> Self {
-        Self { ids, count: ids_of(&named.scores).len(), settings }
+        Self { ids, detection: Detection::beside(named, settings.false_alarm), settings }
     }
 
     /// For each of them one where the test shows it, and nothing where it does not.
@@ -37,7 +36,7 @@ impl<'h> Hidden<'h> {
         let null = Null::new(&assembly, data, &fitted.unit)?;
         let laws = self.settings.laws.iter().filter(|e| self.ids.contains(&e.about().effect));
         let scores: Vec<Score> = laws.filter_map(|law| null.score(*law, self.settings.seed)).collect();
-        let still = hidden_among(&scores, self.count, world.campaign(), self.settings.false_alarm);
+        let still = self.detection.hidden(&scores, world.campaign());
         let chance = |id: &'static str| if still.iter().any(|h| h.effect == id) { 0.0 } else { 1.0 };
         Some(self.ids.iter().map(|id| (*id, chance(id))).collect())
     }
