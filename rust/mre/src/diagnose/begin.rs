@@ -9,7 +9,9 @@ use super::monitor::Monitor;
 use super::noise::Noise;
 use super::normal::Rows;
 use crate::assembly::{Assembly, Base, Campaign};
-use crate::effect::{Effect, InitialHysteresis, InitialState, Quantisation, starts_in_motion};
+use crate::effect::{
+    CurrentWander, Effect, InitialHysteresis, InitialState, Quantisation, current_wanders, starts_in_motion,
+};
 
 /// Steps of the first descents.
 const FEW: usize = 8;
@@ -30,8 +32,8 @@ pub(super) struct Begun<'a> {
 
 /// Fit a base on the rows that count, with effects that belong to it.
 ///
-/// Where a recording starts in motion, the remainders of its unknown initial states are one of them; where
-/// the force is measured in steps, their saw tooth is.
+/// Where a recording starts in motion, the remainders of its unknown initial states are one of them; where a constant
+/// current wanders, what follows it is; where the force is measured in steps, their saw tooth is.
 pub(super) fn begin<'a>(
     campaign: &'a Campaign,
     base: &'a Base,
@@ -49,6 +51,9 @@ pub(super) fn begin<'a>(
     }
     if state {
         effects.push(&InitialHysteresis);
+    }
+    if !base.groups().is_empty() && campaign.recordings().iter().any(|r| current_wanders(r)) {
+        effects.push(&CurrentWander);
     }
     if campaign.sizes().quantum.is_some() {
         effects.push(&Quantisation);

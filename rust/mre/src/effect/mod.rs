@@ -17,6 +17,7 @@ mod clipping;
 mod coulomb;
 mod creep;
 mod cubic;
+mod current_wander;
 mod degradation;
 mod delay;
 mod drift;
@@ -62,6 +63,7 @@ mod work;
 
 pub use crate::kernel::state_change::{Pace, Slip, StateChange, Wear};
 pub use catalogue::{CATALOGUE, named};
+pub use current_wander::{CurrentWander, current_wanders};
 pub(crate) use drift::{DRIFT, MEAN};
 pub use factors::{Factors, Stored};
 pub use flexibility::Flexibility;
