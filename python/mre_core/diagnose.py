@@ -22,6 +22,7 @@ from .findings import (
     levels_of,
     missing_effects,
     next_test_of,
+    off_of,
     place_of,
     pressed_in,
     rms_of_force,
@@ -207,6 +208,7 @@ def diagnose(
         interrupted=raw["interrupted"],
         one_specimen=all(r.past is not None for r in everything),
         velocity_derived=anew.names,
+        off=off_of(raw),
         pressed=pressed if any(pressed.values()) else {},
     )
 

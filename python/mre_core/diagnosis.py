@@ -154,6 +154,11 @@ class Diagnosis:
     zero), of the base model alone (``"base"``) and beside the effects (``"final"``): evidence that something
     is missing, and no properties of the device."""
 
+    off: Mapping[str, Estimate] = field(default_factory=dict)
+    """What is off of parameters that were kept, or of a simulation, where that explains as much as effects do:
+    a ``stiffness``, a ``damping``, a ``scale`` of the force, a ``zero``, to be added. Where it explains more, no
+    effect is named."""
+
     @property
     def absorbed(self) -> tuple[str, ...]:
         """Ids of effects that these recordings would hide."""
@@ -171,11 +176,13 @@ class Diagnosis:
         told = [words.verdict(said, self.base, named, asdict(self.fit))]
         if ends:
             told.append(words.at_the_end(ends))
-        elif whole:
+        elif whole and not self.off and self.refitted is None:
             told.append(words.WORSE)
         if self.verdict in ("adequate", "missing_physics"):
             told.append(words.noise(self.p_values.get("even")))
         told.extend(words.pressed(self.pressed))
+        if self.off:
+            told.append(words.off({name: asdict(estimate) for name, estimate in self.off.items()}, named))
         if self.refitted is not None:
             told.append(words.refitted(self.refitted.rms_as_given, self.refitted.rms_fitted))
         if self.one_specimen:
@@ -218,5 +225,6 @@ class Diagnosis:
             "interrupted": self.interrupted,
             "one_specimen": self.one_specimen,
             "velocity_derived": list(self.velocity_derived),
+            "off": {name: asdict(estimate) for name, estimate in self.off.items()},
             "pressed": {model: list(map(dict, found)) for model, found in self.pressed.items()},
         }

@@ -63,6 +63,11 @@ def pressed_in(model: Model, groups: Sequence[Raw]) -> list[dict[str, Any]]:
     ]
 
 
+def off_of(raw: Raw) -> dict[str, Estimate]:
+    """What is off of parameters that were kept, by name."""
+    return {p["name"]: Estimate(p["value"], p["low"], p["high"], p["unit"]) for p in raw["off"]}
+
+
 def effect_of(found: Raw) -> Effect:
     """Make an effect of the device, without what belongs to single recordings."""
     own = [] if found["of_the_measurement"] else found["coefficients"]

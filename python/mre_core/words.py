@@ -71,6 +71,17 @@ def pressed(found: Mapping[str, Sequence[Mapping[str, Any]]]) -> list[str]:
     return [f"{said[model]}: {listed([stands(one) for one in of])}." for model, of in found.items() if of]
 
 
+def off(found: Mapping[str, Mapping[str, Any]], effects: Sequence[str]) -> str:
+    """Say which parameters that were kept may be off, by how much; `effects` are named beside."""
+    each = [
+        f"a {name} of {one['value']:.4g} {one['unit']}".strip() + f" ({interval(one['low'], one['high'])})"
+        for name, one in found.items()
+    ]
+    if effects:
+        return f"Parameters that are off would explain as much: {listed(each)}, to be added."
+    return f"Parameters are off, and no effect is needed: {listed(each)}, to be added, explain more than any."
+
+
 def refitted(rms_as_given: float, rms_fitted: float) -> str:
     """Say what fitted parameters would leave where they were kept; rms errors in N."""
     return (
@@ -118,6 +129,8 @@ def effect(plain: str, found: Mapping[str, Any], shows: str | None) -> str:
 
 def _change(fit: Mapping[str, Any]) -> str:
     before, after = fit["held_out_rms_before"], fit["held_out_rms_after"]
+    if _force(before) == _force(after):
+        return f"the rms error on held-out data stays at {_force(after)}"
     verb = "falls" if after < before else "rises"
     return f"the rms error on held-out data {verb} from {_force(before)} to {_force(after)}"
 

@@ -28,7 +28,7 @@ pub(super) fn describe(found: &Diagnosis, base: &Base, own: usize, after: &After
         (0..own).map(|place| law(assembly, estimates, place)).collect()
     };
     json!({
-        "verdict": judgement.map(|j| j.verdict.id()),
+        "verdict": judgement.map(|j| j.verdict.beside_refitted(after.refitted).id()),
         "effects": found.effects.iter().map(|e| effect(found, e)).collect::<Vec<_>>(),
         "where": found.places.iter().map(|f| place(&f.place, f.strength)).collect::<Vec<_>>(),
         "base_levels": levels(base, &found.base_estimates),
@@ -48,6 +48,7 @@ pub(super) fn describe(found: &Diagnosis, base: &Base, own: usize, after: &After
         "absorbed": found.absorbed.iter().map(absorbed).collect::<Vec<_>>(),
         "unknown": found.unknown.as_ref().map(unknown),
         "nearest": found.nearest,
+        "off": found.off.iter().map(estimate).collect::<Vec<_>>(),
         "next_test": found.next_test.as_ref().map(next_test),
         "left_out": left_out(begun),
         "sizes": sizes(found),

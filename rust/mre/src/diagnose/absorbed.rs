@@ -80,12 +80,14 @@ impl Detection {
             .collect()
     }
 
-    /// That a bent law would be seen does not say that the plain one would. A zero that is off is part of the base.
+    /// That a bent law would be seen does not say that the plain one would. A zero that is off is part of the base; what does
+    /// nothing to a simulation that is given is not tested at all.
     fn decides(&self, law: &Score, laws: &[Score]) -> bool {
         let is_offset = |law: &&Score| law.effect.slow() == Some(MEAN);
         let plainest = laws.iter().find(|law| !is_offset(law));
-        plainest.is_some_and(|plain| std::ptr::eq(plain, law))
-            || (self.steady && law.effect.is_of_steady_motion())
+        law.trace.of_a_unit > 0.0
+            && (plainest.is_some_and(|plain| std::ptr::eq(plain, law))
+                || (self.steady && law.effect.is_of_steady_motion()))
     }
 }
 
@@ -97,7 +99,7 @@ fn absorbed_as(law: &Score, campaign: &Campaign, size: f64, chance: f64) -> Abso
     let coefficient = law.effect.coefficients().into_iter().nth(*coefficient).map(|p| (p, f64::INFINITY));
     let sized = coefficient.or_else(|| shapes.next().map(|(p, _)| (p.clone(), p.upper)));
     // One that is nowhere near zero is no size of its effect.
-    let sized = sized.filter(|(p, _)| *of_a_unit > 0.0 && p.lower <= NEAR_ZERO * p.upper);
+    let sized = sized.filter(|(p, _)| p.lower <= NEAR_ZERO * p.upper);
     let (name, unit, rms, largest) =
         sized.map_or((RMS.to_owned(), "N", 1.0, f64::INFINITY), |(p, end)| (p.name, p.unit, *of_a_unit, end));
     let (at_share, up_to) = (size / rms, size / rms / chance.sqrt());

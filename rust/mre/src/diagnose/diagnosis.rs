@@ -1,7 +1,7 @@
 //! What a diagnosis found.
 
 use super::absorbed::Absorbed;
-use super::intervals::Estimates;
+use super::intervals::{Estimate, Estimates};
 use super::locate::Finding;
 use super::next_test::NextTest;
 use super::prove::Proof;
@@ -56,6 +56,8 @@ pub struct Diagnosis<'a> {
     pub unknown: Option<Unknown>,
     /// Ids of effects that came nearest to an unexplained mismatch, and are not trusted.
     pub nearest: Vec<&'static str>,
+    /// What is off of a base that was kept, where that explains as much as the effects.
+    pub off: Vec<Estimate>,
     /// The excitation that would best resolve what is in doubt.
     pub next_test: Option<NextTest>,
     /// Effects that the recordings would hide.

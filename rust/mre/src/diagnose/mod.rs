@@ -48,6 +48,7 @@ mod next_test;
 mod noise;
 mod normal;
 mod null;
+mod off;
 mod oscillating;
 mod other_laws;
 mod plain_mismatch;

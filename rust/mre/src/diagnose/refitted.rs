@@ -3,6 +3,7 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
+use super::alternatives::APART;
 use super::diagnosis::Diagnosis;
 use super::gaps::LeftOut;
 use super::monitor::{Monitor, Stage};
@@ -22,6 +23,8 @@ pub struct Refitted {
     pub as_given: f64,
     /// With parameters fitted to these recordings.
     pub fitted: f64,
+    /// True where these leave no more than the effects that were named.
+    pub as_well: bool,
 }
 
 /// Fit the parameters that a diagnosis has kept, in `groups` of recordings that share them, by least squares.
@@ -46,7 +49,10 @@ pub fn refitted(
     let force = monitor.stage(Stage::Refit, || fitted_force(campaign, &base, cancel))?;
     // Without the initial states that a diagnosis fits beside either: they are no parameters of the model.
     let given = rms(campaign, &kept.base_force(&[], &[]));
-    let both = Refitted { as_given: given, fitted: rms(campaign, &force) };
+    let fitted = rms(campaign, &force);
+    let more = (fitted / rms(campaign, &found.final_force)).powi(2) - 1.0;
+    let as_well = more * (counted(campaign).len() as f64) < APART;
+    let both = Refitted { as_given: given, fitted, as_well };
     (both.fitted < (1.0 - TOLD) * both.as_given).then_some(both)
 }
 

@@ -14,6 +14,7 @@ use super::monitor::{Monitor, Stage};
 use super::next_test::{Doubt, propose};
 use super::normal::Rows;
 use super::null::Null;
+use super::off::parameters_off;
 use super::point::forces;
 use super::prove::{Proof, prove};
 use super::screen::Score;
@@ -60,6 +61,8 @@ pub fn run<'a>(
         Detection::beside(&named, settings.false_alarm).hidden(&named.scores, campaign)
     });
     let absorbed = absorbed.unwrap_or_default();
+    let off = monitor.stage(Stage::Verdict, || parameters_off(&begun, &named, data, verdict));
+    let (off, verdict) = off.unwrap_or((Vec::new(), verdict));
     let mut nearest = Vec::new();
     if verdict == Verdict::Unexplained {
         // Names that leave so much are not to be trusted: the base stands alone, and they are only told.
@@ -93,6 +96,7 @@ pub fn run<'a>(
         effects,
         unknown,
         nearest,
+        off,
         next_test: next_test.flatten(),
         absorbed,
         places: sharper.unwrap_or(places),
@@ -160,6 +164,7 @@ fn models<'a>(begun: &Begun<'a>, base: Fitted, named: Named<'a>, data: Data) -> 
         effects: entered(begun, &named),
         unknown: None,
         nearest: Vec::new(),
+        off: Vec::new(),
         next_test: None,
         absorbed: Vec::new(),
         places: Vec::new(),

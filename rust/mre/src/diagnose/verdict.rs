@@ -3,6 +3,7 @@
 use super::agreed::Agreed;
 use super::candidates::by_effect;
 use super::missing::Mismatch;
+use super::refitted::Refitted;
 use super::search::{Named, WAYS};
 use super::uneven::Uneven;
 
@@ -52,6 +53,15 @@ impl Verdict {
             Self::MissingPhysics => "missing_physics",
             Self::PartlyExplained => "partly_explained",
             Self::Unexplained => "unexplained",
+        }
+    }
+
+    /// Where other parameters of the base that were kept leave no more, an effect is a hint.
+    #[must_use]
+    pub fn beside_refitted(self, refitted: Option<Refitted>) -> Self {
+        match self {
+            Self::MissingPhysics if refitted.is_some_and(|r| r.as_well) => Self::PartlyExplained,
+            told => told,
         }
     }
 

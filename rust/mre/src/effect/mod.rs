@@ -40,6 +40,7 @@ mod mullins;
 mod on_part;
 mod operators;
 mod own_share;
+mod parameter_off;
 mod payne;
 mod pinched;
 mod pinching;
@@ -71,6 +72,7 @@ pub use initial_hysteresis::InitialHysteresis;
 pub(crate) use initial_hysteresis::STARTS;
 pub use initial_state::{InitialState, starts_in_motion};
 pub(crate) use mains::{sampled, told};
+pub use parameter_off::ParameterOff;
 pub use quantisation::Quantisation;
 pub use scene::{Acceleration, Scene, Sizes};
 
