@@ -12,7 +12,7 @@ SINES = ((0.5, 6.0), (2.0, 4.0), (1.0, 8.0))
 
 
 def campaign(sag: float, seed: int, *, softens: float = 0.0) -> list[Recording]:
-    """A spring and a dashpot, affine in the current; the spring may also soften with the distance travelled."""
+    """A spring and a dashpot, affine in the current; the spring may soften with the path as well."""
     recordings = []
     for level in LEVELS:
         for place, (hertz, amplitude) in enumerate(SINES):

@@ -155,9 +155,9 @@ class Diagnosis:
     is missing, and no properties of the device."""
 
     off: Mapping[str, Estimate] = field(default_factory=dict)
-    """What is off of parameters that were kept, or of a simulation, where that explains as much as effects do:
-    a ``stiffness``, a ``damping``, a ``scale`` of the force, a ``zero``, to be added. Where it explains more, no
-    effect is named."""
+    """What is off of parameters that were kept, or of a simulation, where that explains as much as effects
+    do: a ``stiffness``, a ``damping``, a ``scale`` of the force, a ``zero``, to be added. Where it explains
+    more, no effect is named."""
 
     @property
     def absorbed(self) -> tuple[str, ...]:

@@ -64,7 +64,7 @@ def pressed_in(model: Model, groups: Sequence[Raw]) -> list[dict[str, Any]]:
 
 
 def off_of(raw: Raw) -> dict[str, Estimate]:
-    """What is off of parameters that were kept, by name."""
+    """Name what is off of parameters that were kept."""
     return {p["name"]: Estimate(p["value"], p["low"], p["high"], p["unit"]) for p in raw["off"]}
 
 

@@ -48,12 +48,10 @@ fn of_the_last(assembly: &Assembly, before: &[f64]) -> Vec<Vec<f64>> {
     starts.unwrap_or_default().iter().map(|start| assembly.unit(&[before, start].concat())).collect()
 }
 
-/// Other shapes of a hysteretic base behind the softest start of a last effect that gives way: where the two are in
-/// series, a base of its own takes their yield for its own.
+/// Other shapes of a base behind the softest start of a last effect that gives way: a base alone has bent to what the two in
+/// series do, to their yield or to less hardening.
 fn behind_the_last(assembly: &Assembly, before: &[f64]) -> Vec<Vec<f64>> {
-    let Some(effect) = assembly.effects().last().filter(|_| assembly.base().is_hysteretic()) else {
-        return Vec::new();
-    };
+    let Some(effect) = assembly.effects().last() else { return Vec::new() };
     let size = |start: &[f64]| effect.flexibility(start).map_or(0.0, |f| f.size);
     let own = effect.starts(assembly.campaign().sizes()).into_iter();
     let Some(softest) = own.max_by(|a, b| size(a).total_cmp(&size(b))) else { return Vec::new() };
