@@ -76,6 +76,8 @@ class Refitted:
     rms_as_given: float
     rms_fitted: float
     """With parameters fitted to these recordings."""
+    as_well: bool
+    """True where these leave no more than the effects that are named, which are hints then."""
     unit: str = "N"
 
 
@@ -176,7 +178,7 @@ class Diagnosis:
         told = [words.verdict(said, self.base, named, asdict(self.fit))]
         if ends:
             told.append(words.at_the_end(ends))
-        elif whole and not self.off and self.refitted is None:
+        elif whole and not self.off and not (self.refitted and self.refitted.as_well):
             told.append(words.WORSE)
         if self.verdict in ("adequate", "missing_physics"):
             told.append(words.noise(self.p_values.get("even")))
@@ -184,7 +186,7 @@ class Diagnosis:
         if self.off:
             told.append(words.off({name: asdict(estimate) for name, estimate in self.off.items()}, named))
         if self.refitted is not None:
-            told.append(words.refitted(self.refitted.rms_as_given, self.refitted.rms_fitted))
+            told.append(words.refitted(**{k: v for k, v in asdict(self.refitted).items() if k != "unit"}))
         if self.one_specimen:
             told.append(words.ONE_SPECIMEN)
         if self.velocity_derived:

@@ -79,14 +79,15 @@ def off(found: Mapping[str, Mapping[str, Any]], effects: Sequence[str]) -> str:
     ]
     if effects:
         return f"Parameters that are off would explain as much: {listed(each)}, to be added."
-    return f"Parameters are off, and no effect is needed: {listed(each)}, to be added, explain more than any."
+    return f"Parameters are off: {listed(each)}, to be added, explain more than any effects would."
 
 
-def refitted(rms_as_given: float, rms_fitted: float) -> str:
-    """Say what fitted parameters would leave where they were kept; rms errors in N."""
+def refitted(rms_as_given: float, rms_fitted: float, *, as_well: bool) -> str:
+    """Say what fitted parameters would leave where they were kept; rms errors in N. `as_well`: as the effects."""
     return (
         "Its parameters were kept as given: fitted to these recordings, they would leave"
-        f" {_force(rms_fitted)} in all instead of {_force(rms_as_given)}."
+        f" {_force(rms_fitted)} in all instead of {_force(rms_as_given)}"
+        + (", no more than with what is named." if as_well else ".")
     )
 
 

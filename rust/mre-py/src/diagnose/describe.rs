@@ -53,7 +53,7 @@ pub(super) fn describe(found: &Diagnosis, base: &Base, own: usize, after: &After
         "left_out": left_out(begun),
         "sizes": sizes(found),
         "blank": after.blanks.as_ref().filter(|b| b.count > 0).map(blank),
-        "refitted": after.refitted.map(|r| json!({"rms_as_given": r.as_given, "rms_fitted": r.fitted})),
+        "refitted": after.refitted.map(|r| json!({"rms_as_given": r.as_given, "rms_fitted": r.fitted, "as_well": r.as_well})),
         "interrupted": after.broken_off,
     })
 }

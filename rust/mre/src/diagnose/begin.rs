@@ -52,7 +52,9 @@ pub(super) fn begin<'a>(
     if state {
         effects.push(&InitialHysteresis);
     }
-    if !base.groups().is_empty() && campaign.recordings().iter().any(|r| current_wanders(r)) {
+    let largest = campaign.sizes().current.map_or(0.0, |(_, largest)| largest);
+    let wanders = campaign.recordings().iter().any(|r| current_wanders(r, largest));
+    if wanders && !base.groups().is_empty() {
         effects.push(&CurrentWander);
     }
     if campaign.sizes().quantum.is_some() {

@@ -1,8 +1,8 @@
-//! Parameters that were kept and are off: where they explain more than effects do, no effect is needed.
+//! Parameters that were kept and are off: where they explain more than effects do, none is named.
 
 use super::alternatives::APART;
 use super::begin::Begun;
-use super::candidates::Candidate;
+use super::candidates::{Candidate, TIE};
 use super::intervals::{Estimate, estimates};
 use super::joint::fit;
 use super::least_squares::Data;
@@ -47,9 +47,9 @@ pub(super) fn parameters_off(
         _ if more > APART || off.iter().all(|one| *one == ParameterOff::Zero) => {
             return (Vec::new(), verdict);
         }
-        _ if more < 0.0 => Verdict::Unexplained,
-        Verdict::MissingPhysics => Verdict::PartlyExplained,
-        told => told,
+        _ if more < -TIE => Verdict::Unexplained,
+        Verdict::MissingPhysics | Verdict::PartlyExplained => Verdict::PartlyExplained,
+        told => return (Vec::new(), told),
     };
     let mut found = estimates(&assembly, data, &fitted.unit).coefficients;
     (found.split_off(found.len() - off.len()), verdict)

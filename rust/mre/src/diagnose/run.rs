@@ -42,9 +42,13 @@ pub fn run<'a>(
     let splits = Splits::of(campaign, base);
     let search = Search { begun: &begun, rows: &rows, splits: &splits, settings, monitor };
     let found = search.run();
-    let judged =
-        monitor.stage(Stage::Verdict, || judge(&begun, found.clone(), &rows, settings.false_alarm, monitor));
-    let Some(Judged { mut named, base: base_fit, evidence, verdict }) = judged else {
+    let judged = monitor.stage(Stage::Verdict, || {
+        let judged = judge(&begun, found.clone(), &rows, settings.false_alarm, monitor);
+        let data = Data { noise: &judged.named.noise, rows: &rows, monitor };
+        let instead = parameters_off(&begun, &judged.named, data, judged.verdict);
+        (judged, instead)
+    });
+    let Some((Judged { mut named, base: base_fit, evidence, .. }, (off, verdict))) = judged else {
         let mut named = found.0;
         settle_reference(&mut named, &rows, monitor);
         let noise = named.noise.clone();
@@ -61,12 +65,13 @@ pub fn run<'a>(
         Detection::beside(&named, settings.false_alarm).hidden(&named.scores, campaign)
     });
     let absorbed = absorbed.unwrap_or_default();
-    let off = monitor.stage(Stage::Verdict, || parameters_off(&begun, &named, data, verdict));
-    let (off, verdict) = off.unwrap_or((Vec::new(), verdict));
     let mut nearest = Vec::new();
     if verdict == Verdict::Unexplained {
-        // Names that leave so much are not to be trusted: the base stands alone, and they are only told.
-        nearest = named.added(&begun).iter().map(|e| e.about().effect).collect();
+        // Names that leave so much are not to be trusted: the base stands alone, and they are only told, unless what is off
+        // surpasses them.
+        if off.is_empty() {
+            nearest = named.added(&begun).iter().map(|e| e.about().effect).collect();
+        }
         named.assembly = begun.assembly.clone();
         named.fitted = base_fit.clone();
         named.p_values = Vec::new();

@@ -3,48 +3,58 @@
 //! No effect of the catalogue, but a part of the model of recordings at constant currents: a base has its parameters for the
 //! level alone, and what they change by within it is, to first order, a stiffness, a damping and a share of the force of the
 //! base in proportion to the current less its mean over the recording.
-//! Known limit: a softening that goes as the current does is not told from it.
+//! Known limit: a softening that goes as the current does is not told from it, however large; levels share the slopes.
+
+use std::ops::Range;
 
 use super::{About, Effect, Scene, Sizes, signed};
 use crate::parameter::Parameter;
-use crate::recording::{Recording, mean};
-use crate::spread::deviation;
+use crate::recording::{Condition, Recording, extent, mean};
 
 /// Parts of a recording over which the current is averaged.
 const PARTS: usize = 8;
 /// It wanders where their means differ by more than so many of their standard deviations.
 const PLAINLY: f64 = 6.0;
-/// And by more than this share of the level.
+/// And by more than this share of the largest current.
 const LEAST: f64 = 2e-3;
 
 /// Forces in proportion to the wander.
 #[derive(Debug, Clone, Copy)]
 pub struct CurrentWander;
 
-/// True where a current that counts as constant wanders.
-pub fn current_wanders(recording: &Recording) -> bool {
-    let (Some(level), Some(current)) = (recording.current().level(), recording.current().series()) else {
-        return false;
-    };
-    let parts: Vec<&[f64]> = current.chunks(current.len().div_ceil(PARTS)).collect();
-    let means: Vec<f64> = parts.iter().map(|part| mean(part)).collect();
-    let rest: Vec<f64> =
-        parts.iter().zip(&means).flat_map(|(part, mean)| part.iter().map(move |i| i - mean)).collect();
-    let scatter = deviation(&rest) * (PARTS as f64 / current.len() as f64).sqrt();
-    let (low, high) = crate::recording::extent(&means);
-    high - low > (PLAINLY * scatter).max(LEAST * level.abs())
+/// True where a current that counts as constant wanders, beside the largest of the campaign.
+pub fn current_wanders(recording: &Recording, largest: f64) -> bool {
+    let Condition::Series(current) = recording.current() else { return false };
+    recording.current().level().is_some() && wanders(current, largest)
 }
 
-/// The current less its mean, smoothed: what is fast is noise of its meter.
+fn wanders(current: &[f64], largest: f64) -> bool {
+    let part = current.len() / PARTS;
+    if part == 0 {
+        return false;
+    }
+    let parts: Vec<&[f64]> = current.chunks_exact(part).collect();
+    let means: Vec<f64> = parts.iter().map(|part| mean(part)).collect();
+    let rest = parts.iter().zip(&means).flat_map(|(part, mean)| part.iter().map(move |i| (i - mean).powi(2)));
+    let scatter = (rest.sum::<f64>() / current.len() as f64 / part as f64).sqrt();
+    let (low, high) = extent(&means);
+    high - low > (PLAINLY * scatter).max(LEAST * largest)
+}
+
+/// The current less its mean, smoothed: what is fast is noise of its meter. None where it does not wander, or changes.
 fn wander(scene: &Scene) -> Option<Vec<f64>> {
     let current = scene.current?;
+    let (_, largest) = scene.sizes.current?;
+    if Condition::Series(current.to_vec()).varies() || !wanders(current, largest) {
+        return None;
+    }
     let (middle, half) = (mean(current), current.len() / (2 * PARTS));
     let near = |i: usize| i.saturating_sub(half)..(i + half + 1).min(current.len());
     let mut sums = vec![0.0];
     for i in current {
         sums.push(sums[sums.len() - 1] + i - middle);
     }
-    let over = |r: std::ops::Range<usize>| (sums[r.end] - sums[r.start]) / r.len() as f64;
+    let over = |r: Range<usize>| (sums[r.end] - sums[r.start]) / r.len() as f64;
     Some((0..current.len()).map(|i| over(near(i))).collect())
 }
 

@@ -28,11 +28,6 @@ impl Condition {
         }
     }
 
-    /// The values, where there is one a sample.
-    pub fn series(&self) -> Option<&[f64]> {
-        if let Self::Series(values) = self { Some(values) } else { None }
-    }
-
     /// True where the quantity changes during the recording.
     pub fn varies(&self) -> bool {
         matches!(self, Self::Series(_)) && self.level().is_none()
