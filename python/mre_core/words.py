@@ -83,7 +83,7 @@ def off(found: Mapping[str, Mapping[str, Any]], effects: Sequence[str]) -> str:
 
 
 def refitted(rms_as_given: float, rms_fitted: float, *, as_well: bool) -> str:
-    """Say what fitted parameters would leave where they were kept (`as_well`: as the effects); errors in N."""
+    """Say what fitted parameters would leave where they were kept, `as_well` as the effects; errors in N."""
     return (
         "Its parameters were kept as given: fitted to these recordings, they would leave"
         f" {_force(rms_fitted)} in all instead of {_force(rms_as_given)}"
