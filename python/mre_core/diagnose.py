@@ -88,8 +88,9 @@ def diagnose(
     false_alarm : float
         Chance that something is named although nothing is missing, in (0, 0.5).
     fixed : bool
-        Keep the parameters of a given model as they are, and diagnose exactly that model. Wrong ones look
-        like missing physics: of a model without effects, `refitted` says what fitted ones would leave.
+        Keep the parameters of a given model as they are, and diagnose exactly that model. Wrong ones may
+        look like missing physics: `off` says what is off, where that explains as much as effects do, and of a
+        model without effects `refitted` what fitted ones would leave.
     without : sequence of str
         Ids of effects that are ruled out, and not to be named.
     limits : mapping, optional
