@@ -50,7 +50,7 @@ def test_what_is_off_of_a_simulation_is_told(
     found = mre_core.diagnose(device(off, scale=scale), "simulated", seed=1)
     assert (found.verdict, found.effects) == ("unexplained", ())
     assert {name: estimate.value for name, estimate in found.off.items()} == pytest.approx(sizes, rel=0.1)
-    assert "Parameters are off: " in str(found)
+    assert "Parameters are off, which explains more than effects would: add a " in str(found)
     assert found.to_dict()["off"].keys() == sizes.keys()
 
 

@@ -78,8 +78,8 @@ def off(found: Mapping[str, Mapping[str, Any]], effects: Sequence[str]) -> str:
         for name, one in found.items()
     ]
     if effects:
-        return f"Parameters that are off would explain as much: {listed(each)}, to be added."
-    return f"Parameters are off: {listed(each)}, to be added, explain more than any effects would."
+        return f"Parameters that are off would explain as much: add {listed(each)}."
+    return f"Parameters are off, which explains more than effects would: add {listed(each)}."
 
 
 def refitted(rms_as_given: float, rms_fitted: float, *, as_well: bool) -> str:
