@@ -23,7 +23,7 @@ pub struct Refitted {
     pub as_given: f64,
     /// With parameters fitted to these recordings.
     pub fitted: f64,
-    /// True where these leave no more than the effects that were named.
+    /// True where these, of one current, leave no more than the effects that were named.
     pub as_well: bool,
 }
 
@@ -51,7 +51,8 @@ pub fn refitted(
     let given = rms(campaign, &kept.base_force(&[], &[]));
     let fitted = rms(campaign, &force);
     let more = (fitted / rms(campaign, &found.final_force)).powi(2) - 1.0;
-    let as_well = more * (counted(campaign).len() as f64) < APART;
+    // Parameters of each current on their own are another law of the current.
+    let as_well = groups.len() == 1 && more * (counted(campaign).len() as f64) < APART;
     let both = Refitted { as_given: given, fitted, as_well };
     (both.fitted < (1.0 - TOLD) * both.as_given).then_some(both)
 }
