@@ -186,7 +186,8 @@ class Diagnosis:
         if self.off:
             told.append(words.off({name: asdict(estimate) for name, estimate in self.off.items()}, named))
         if self.refitted is not None:
-            told.append(words.refitted(**{k: v for k, v in asdict(self.refitted).items() if k != "unit"}))
+            given, fitted = self.refitted.rms_as_given, self.refitted.rms_fitted
+            told.append(words.refitted(given, fitted, as_well=self.refitted.as_well))
         if self.one_specimen:
             told.append(words.ONE_SPECIMEN)
         if self.velocity_derived:
