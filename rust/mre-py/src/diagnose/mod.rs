@@ -84,7 +84,7 @@ pub(crate) fn diagnose_recordings<'py>(
                     None => Kept::new(device),
                 }),
                 (None, Some(force)) => Base::Given(force),
-                (None, None) => Base::fitted(&recordings, model, &groups)?,
+                (None, None) => Base::fitted(campaign.recordings(), model, &groups)?,
             };
             let limit = |name: &str| limits.get(name).copied();
             let limits = GivenLimits {

@@ -8,6 +8,7 @@ use rand_core::SeedableRng;
 use rayon::prelude::*;
 
 use super::halves::with_halves;
+use super::metered::without_noise_of_the_meter;
 use super::motion::{Doubts, of_one_motion, shaken};
 use crate::effect::{Acceleration, Scene, Sizes};
 use crate::error::{Error, Result};
@@ -46,8 +47,9 @@ impl Campaign {
             }
             evenly_sampled(recording)?;
         }
+        let seen = recordings.into_par_iter().map(|r| of_one_motion(&r)).collect();
         let (recordings, doubts): (Vec<Arc<Recording>>, Vec<Doubts>) =
-            recordings.into_par_iter().map(|r| of_one_motion(&r)).unzip();
+            without_noise_of_the_meter(seen).into_iter().unzip();
         let noise = doubts.iter().filter_map(|doubts| doubts.left.as_ref().map(Left::of_displacement));
         let noise = noise.fold(0.0, f64::max);
         let sizes = Sizes { noise, ..Sizes::of(recordings.iter().map(AsRef::as_ref)) };
@@ -94,7 +96,7 @@ impl Campaign {
     /// where there is no such noise.
     pub(crate) fn shaken(&self) -> &[Self] {
         self.shaken.get_or_init(|| {
-            if self.doubts.iter().all(|doubts| doubts.left.is_none()) {
+            if !self.doubts.iter().any(Doubts::noise_is_left) {
                 return Vec::new();
             }
             (0..SHAKEN).map(|draw| self.shaken_once(draw)).collect()

@@ -12,6 +12,7 @@ mod halves;
 mod in_series;
 mod kept;
 mod layout;
+mod metered;
 mod motion;
 mod shaken;
 mod simulate;

@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use rand_chacha::ChaCha8Rng;
 
-use crate::recording::Recording;
-use crate::velocity::{self, Calm, Derived, Left, Parts, Smoothed, Together};
+use crate::recording::{Condition, Recording};
+use crate::velocity::{self, Calm, Derived, Left, Parts, Smoothed, Stepped, Together};
 
 /// A derived velocity differs from the recorded one by as much as that has noise, up to this factor.
 const ALIKE: f64 = 1.2;
@@ -24,6 +24,15 @@ pub(crate) struct Doubts {
     pub(crate) cornered: bool,
     /// How noise was taken off the motion, of which some is left; `None` where there was none.
     pub(crate) left: Option<Left>,
+    /// The same of a measured current.
+    pub(crate) left_of_current: Option<Stepped>,
+}
+
+impl Doubts {
+    /// True where noise of a motion or a current is left.
+    pub(crate) fn noise_is_left(&self) -> bool {
+        self.left.is_some() || self.left_of_current.is_some()
+    }
 }
 
 /// Displacement, mm, velocity, mm/s, and in what they are not to be trusted.
@@ -64,7 +73,7 @@ fn of_derived(time: &[f64], x: &[f64], derived: Derived) -> Motion {
         let ends = ends(time.len(), derived.half);
         let left_out = ends.into_iter().chain(derived.unresolved(time, x)).chain(lost).collect();
         let left = some(Left::Derived(calming));
-        return (displacement, velocity, Doubts { left_out, noisy, cornered: false, left });
+        return (displacement, velocity, Doubts { left_out, noisy, left, ..Doubts::default() });
     }
     // Across a corner or a bend a longer window takes off motion.
     let parts = Parts::of(time, x, &derived);
@@ -72,7 +81,8 @@ fn of_derived(time: &[f64], x: &[f64], derived: Derived) -> Motion {
     let lost = velocity::give_back(&mut displacement, x);
     let left_out = derived.corners.into_iter().chain(lost).collect();
     let left = some(Left::Between(parts));
-    (displacement, velocity, Doubts { left_out, noisy, cornered: derived.sharp, left })
+    let cornered = derived.sharp;
+    (displacement, velocity, Doubts { left_out, noisy, cornered, left, ..Doubts::default() })
 }
 
 /// A motion whose velocity has less noise than the recorded one where it is derived from the displacement.
@@ -92,20 +102,31 @@ fn better_derived([time, x, v]: [&[f64]; 3], recorded: &Smoothed) -> Option<Moti
     (alike && calmer).then(|| of_derived(time, x, derived))
 }
 
-/// A motion with what is left of as much noise as it had, drawn anew; `None` where none is known.
+/// A motion and a current with what is left of as much noise as they had, drawn anew; `None` where none is known.
 pub(super) fn shaken(
     recording: &Recording,
     doubts: &Doubts,
     stream: &mut ChaCha8Rng,
 ) -> Option<(Arc<Recording>, Doubts)> {
+    if !doubts.noise_is_left() {
+        return None;
+    }
     let motion = [recording.time(), recording.displacement(), recording.velocity()];
-    let left = doubts.left.as_ref()?.drawn(motion, stream);
     let more = |own: &[f64], left: &[f64]| own.iter().zip(left).map(|(own, left)| own + left).collect();
-    let displacement = more(recording.displacement(), &left.displacement);
-    let velocity = more(recording.velocity(), &left.velocity);
-    let parts = doubts.noisy.iter().zip(&left.noisy);
-    let noisy = parts.map(|(own, left)| [0, 1].map(|k| more(&own[k], &left[k]))).collect();
-    Some((Arc::new(recording.seen_with(displacement, velocity, None)), Doubts { noisy, ..doubts.clone() }))
+    let [mut displacement, mut velocity] = [motion[1].to_vec(), motion[2].to_vec()];
+    let mut noisy = doubts.noisy.clone();
+    if let Some(left) = &doubts.left {
+        let left = left.drawn(motion, stream);
+        displacement = more(motion[1], &left.displacement);
+        velocity = more(motion[2], &left.velocity);
+        let parts = doubts.noisy.iter().zip(&left.noisy);
+        noisy = parts.map(|(own, left)| [0, 1].map(|k| more(&own[k], &left[k]))).collect();
+    }
+    let current = match (&doubts.left_of_current, recording.current()) {
+        (Some(left), Condition::Series(own)) => Some(more(own, &left.drawn(motion[0], stream))),
+        _ => None,
+    };
+    Some((Arc::new(recording.seen_with(displacement, velocity, current)), Doubts { noisy, ..doubts.clone() }))
 }
 
 /// Samples at the ends of so many whose velocity is derived over this half window.

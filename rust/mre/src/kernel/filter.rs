@@ -18,6 +18,11 @@ pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     product(dispatch::best(), a, b)
 }
 
+/// Third differences: of what is smooth little is left, of white noise 20 times the mean square.
+pub(crate) fn third_differences(values: &[f64]) -> Vec<f64> {
+    values.windows(4).map(|v| v[3] - 3.0 * v[2] + 3.0 * v[1] - v[0]).collect()
+}
+
 for_every_isa!(filter, filter_generic, (y: &[f64], a: &[f64], scale: f64, out: &mut [f64]) -> ());
 for_every_isa!(product, product_generic, (a: &[f64], b: &[f64]) -> f64);
 

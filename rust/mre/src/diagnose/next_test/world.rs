@@ -72,6 +72,7 @@ impl World {
             noisy: noisy.clone(),
             cornered: *cornered,
             left: None,
+            left_of_current: None,
         };
         let doubts = known.doubts().iter().map(quiet).chain([Doubts::default()]).collect();
         let campaign = Campaign::with_sizes(recordings, known.sizes().clone()).doubting(doubts);
