@@ -93,6 +93,10 @@ pub(crate) fn sizes(given: &Bound<'_, PyMapping>) -> PyResult<Sizes> {
         let value = item(name).and_then(|value| value.extract::<f64>().ok());
         value.filter(|value| (least..=LARGEST).contains(value))
     };
+    let yes = |name: &str| -> PyResult<bool> {
+        let known = |value: Bound<'_, PyAny>| value.extract().map_err(|_| unusable(name, "true or false"));
+        item(name).map_or(Ok(false), known)
+    };
     let number = |name: &str| -> PyResult<f64> {
         within(name, SMALLEST).ok_or_else(|| unusable(name, "a number above 0"))
     };
@@ -114,10 +118,8 @@ pub(crate) fn sizes(given: &Bound<'_, PyMapping>) -> PyResult<Sizes> {
         dissipated: item("dissipated").map_or_else(|| number("energy"), |_| number("dissipated"))?,
         life: item("life").map_or(Ok(1.0), |_| number("life"))?,
         current: item("current").map(|value| ends(&value)).transpose()?,
-        current_varies: match item("current_varies") {
-            Some(value) => value.extract().map_err(|_| unusable("current_varies", "true or false"))?,
-            None => false,
-        },
+        current_varies: yes("current_varies")?,
+        current_steps: yes("current_steps")?,
         quantum: item("quantum").map(|_| number("quantum")).transpose()?,
     })
 }
@@ -150,6 +152,7 @@ pub(crate) fn any_sizes() -> Sizes {
         life: 1.0,
         current: Some((0.0, 1.0)),
         current_varies: true,
+        current_steps: true,
         quantum: None,
     }
 }

@@ -234,7 +234,7 @@ fn sizes(found: &Diagnosis) -> Value {
         "displacement": s.displacement, "noise": s.noise, "velocity": s.velocity, "force": s.force, "step": s.step,
         "duration": s.duration, "total": s.total, "path": s.path, "energy": s.energy,
         "dissipated": s.dissipated, "life": s.life,
-        "current": s.current, "current_varies": s.current_varies,
+        "current": s.current, "current_varies": s.current_varies, "current_steps": s.current_steps,
         "quantum": s.quantum,
     })
 }

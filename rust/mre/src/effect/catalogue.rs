@@ -432,6 +432,8 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &FieldLag::Twice,
     &FieldLag::Ringing,
     &FieldLag::RiseAndFall,
+    &FieldLag::Jumping,
+    &FieldLag::JumpingRiseAndFall,
     &Remanence::Play,
     &Remanence::Largest,
     &Remanence::LargestSeen,

@@ -3,6 +3,7 @@
 use std::sync::OnceLock;
 
 use super::Motion;
+use crate::kernel::jumps::steps;
 use crate::recording::{Condition, Past, Recording};
 use crate::velocity;
 
@@ -131,6 +132,8 @@ pub struct Sizes {
     /// True where the current changes inside a recording, or between recordings that share the parameters of
     /// the base model.
     pub current_varies: bool,
+    /// True where it jumps between two samples of a recording.
+    pub current_steps: bool,
     /// Step of the lattice on which all forces lie, N, if they do.
     pub quantum: Option<f64>,
 }
@@ -153,6 +156,7 @@ impl Sizes {
             life: 1.0,
             current: None,
             current_varies: false,
+            current_steps: false,
             quantum: super::quantisation::quantum(&forces),
         };
         let mut longest = 0.0_f64;
@@ -182,6 +186,9 @@ impl Sizes {
             let known = sizes.current.get_or_insert((low, high));
             *known = (known.0.min(low), known.1.max(high));
             sizes.current_varies |= r.current().varies();
+            if let Condition::Series(i) = r.current() {
+                sizes.current_steps |= r.current().varies() && !steps(i).is_empty();
+            }
         }
         let sizes = sizes.above_zero();
         Self { life: (longest / sizes.path).max(1.0), ..sizes }

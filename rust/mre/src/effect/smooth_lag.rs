@@ -6,11 +6,29 @@
 
 use nalgebra::{Complex, ComplexField};
 
+use crate::kernel::jumps::steps;
 use crate::kernel::relaxation::{runs, weights};
 
 /// `y' = (u - y) / tau` from `start`.
 pub(super) fn smooth_lag(time: &[f64], input: &[f64], tau: f64, start: f64) -> Vec<f64> {
     relaxed(time, input, 1.0 / tau, start)
+}
+
+/// The same from the first value, where the input jumps after a share of the step in which it does.
+pub(super) fn jumping_lag(time: &[f64], input: &[f64], tau: f64, share: f64) -> Vec<f64> {
+    let mut out = Vec::with_capacity(input.len());
+    let mut from = 0;
+    let mut y = input[0];
+    for jump in steps(input).into_iter().chain([input.len() - 1]) {
+        let part = from..jump + 1;
+        out.extend(smooth_lag(&time[part.clone()], &input[part], tau, y));
+        let Some(next) = time.get(jump + 1) else { break };
+        let step = next - time[jump];
+        let held = input[jump] + (out[jump] - input[jump]) * (-share * step / tau).exp();
+        y = input[jump + 1] + (held - input[jump + 1]) * (-(1.0 - share) * step / tau).exp();
+        from = jump + 1;
+    }
+    out
 }
 
 /// `y'' + 2 zeta w y' + w^2 y = w^2 u` from rest at `start`, `zeta` below one: two lags of conjugate complex rates.
@@ -96,6 +114,18 @@ mod tests {
                 let closed = 1.0 - (-zeta * w * t).exp() * (phase.cos() + zeta / ring * phase.sin());
                 assert!((y - closed).abs() < 1e-12, "w {w}, t {t}: {y} {closed}");
             }
+        }
+    }
+
+    #[test]
+    fn a_jump_is_met_where_it_is() {
+        let time: Vec<f64> = (0..60).map(|i| 0.01 * f64::from(i)).collect();
+        let (tau, share) = (0.02, 0.3);
+        let input: Vec<f64> = (0..60).map(|i| f64::from(u8::from((20..40).contains(&i)))).collect();
+        let since = |t: f64, jump: f64| if t > jump { 1.0 - (-(t - jump) / tau).exp() } else { 0.0 };
+        let closed = |t: f64| since(t, 0.193) - since(t, 0.393);
+        for (t, y) in time.iter().zip(jumping_lag(&time, &input, tau, share)) {
+            assert!((y - closed(*t)).abs() < 1e-12, "t {t}: {y} {}", closed(*t));
         }
     }
 

@@ -66,6 +66,12 @@ pub(crate) fn jumps(time: &[f64], displacement: &[f64], velocity: &[f64]) -> Vec
     found
 }
 
+/// Samples after which a series on an even grid jumps, in order.
+pub(crate) fn steps(values: &[f64]) -> Vec<usize> {
+    let (low, high) = crate::recording::extent(values);
+    (0..values.len()).filter(|i| sharp(values, high - low, *i, ALONE)).collect()
+}
+
 /// Median of the changes between neighbours.
 pub(crate) fn usual_change(values: &[f64]) -> f64 {
     median(values.windows(2).map(|v| (v[1] - v[0]).abs()).collect())
