@@ -4,6 +4,7 @@
 //! |---|---|---|---|
 //! | s | share that is lost in the middle of the span of the current, or by saturation (negative: gained) | - | -6 to 0.95 |
 //! | `k_i`, `c_i`, `k_i3` | change of stiffness, damping and cubic stiffness | N/mm, N s/mm, N/mm^3 | any |
+//! | `F_i`, `F_q` | force at rest that goes with the current: along a straight line, and bent | N | any |
 //! | `I_s` | current of saturation | A | 10 % to 200 % of the span of the current |
 //!
 //! q vanishes at the lowest and at the highest current: what is affine belongs to the base model.
@@ -21,6 +22,8 @@ pub(super) enum FieldDependence {
     Square,
     /// By saturation.
     Saturating,
+    /// A force at rest, of which the base has one for all currents.
+    Force,
     /// A part of the force by one factor.
     Scaled(Of),
     /// The same by a factor that saturates.
@@ -38,7 +41,7 @@ pub(super) enum Of {
     Whole,
 }
 
-/// What the parameters miss at every sample: a function of the current from 0 at its lowest to 1 at its highest.
+/// A function of the current from 0 at its lowest to 1 at its highest.
 fn departure(scene: &Scene, bent: impl Fn(f64) -> f64) -> Vec<f64> {
     let (span, low) = (scene.sizes.current_span(), scene.sizes.current.map_or(0.0, |(low, _)| low));
     let still = vec![low; scene.len()];
@@ -60,6 +63,14 @@ impl Effect for FieldDependence {
             Self::Saturating => About {
                 law: "saturating",
                 equation: "F_q = (k_i x + c_i v + k_i3 x^3) q, q = tanh((I - I_low)/I_s) less its chord",
+                ..square
+            },
+            Self::Force => About {
+                law: "force at rest",
+                plain: "the force at rest follows the current",
+                equation: "F_q = F_i u + F_q u (u - 1), u = (I - I_low)/(I_high - I_low)",
+                reference: "general",
+                limit: "where all recordings have constant currents it belongs to the base",
                 ..square
             },
             Self::Scaled(of) => About {
@@ -100,6 +111,7 @@ impl Effect for FieldDependence {
             Self::Square | Self::Saturating => {
                 vec![signed("k_i", "N/mm"), signed("c_i", "N s/mm"), signed("k_i3", "N/mm^3")]
             }
+            Self::Force => vec![signed("F_i", "N"), signed("F_q", "N")],
             Self::Scaled(_) | Self::ScaledSaturating(_) => Vec::new(),
         }
     }
@@ -109,7 +121,7 @@ impl Effect for FieldDependence {
         let saturation = ideal_above(order_within("I_s", "A", 0.1 * span, 2.0 * span));
         let share = within("s", "", -6.0, 0.95);
         match self {
-            Self::Square => Vec::new(),
+            Self::Square | Self::Force => Vec::new(),
             Self::Saturating => vec![saturation],
             Self::Scaled(_) => vec![share],
             Self::ScaledSaturating(_) => vec![share, saturation],
@@ -118,7 +130,7 @@ impl Effect for FieldDependence {
 
     fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
         match self {
-            Self::Square => vec![Vec::new()],
+            Self::Square | Self::Force => vec![Vec::new()],
             Self::Saturating => {
                 [0.2, 0.5, 1.2].iter().map(|share| vec![share * sizes.current_span()]).collect()
             }
@@ -137,6 +149,7 @@ impl Effect for FieldDependence {
                 let ratio = span / shape[0];
                 departure(scene, |u| (u * ratio).tanh() - u * ratio.tanh())
             }
+            Self::Force => return vec![departure(scene, |u| u), departure(scene, |u| u * (u - 1.0))],
             Self::Scaled(_) | Self::ScaledSaturating(_) => return Vec::new(),
         };
         let mut columns = following(scene, &q);
@@ -149,7 +162,7 @@ impl Effect for FieldDependence {
         let (q, of) = match self {
             Self::Scaled(of) => (departure(scene, |u| 4.0 * u * (1.0 - u)), of),
             Self::ScaledSaturating(of) => (departure(scene, |u| (u * ratio(shape[1])).tanh()), of),
-            Self::Square | Self::Saturating => return None,
+            Self::Square | Self::Saturating | Self::Force => return None,
         };
         let factors = Factors::losing(shape[0], &q, *of == Of::Whole);
         Some(if *of == Of::Damping { factors.of_damping() } else { factors })
