@@ -1,5 +1,6 @@
 //! A residual that follows the motion of its own recording is a mismatch: an autoregression of a recording would
-//! take it for a narrow band of noise, and whiten the mismatch away. Of a sine that is its frequency, and multiples of it.
+//! take it for a narrow band of noise, and whiten the mismatch away. Of a sine that is its frequency, and multiples of it. One
+//! that follows a current that changes is as little noise.
 
 use std::ops::Range;
 
@@ -10,7 +11,7 @@ use super::distribution::{CAUTION, chi_square_tail};
 use super::hum::without_hum;
 use crate::assembly::Assembly;
 use crate::kernel::filter::dot;
-use crate::recording::Recording;
+use crate::recording::{Condition, Recording};
 
 /// A residual follows the motion where that is more than such a share of its squares in two halves,
 const MOST: f64 = 0.5;
@@ -42,9 +43,22 @@ pub(super) fn without_the_coherent(assembly: &Assembly, residuals: Vec<Vec<f64>>
         .map(|(residual, recording)| {
             let of = |series: &[f64]| series[recording.scored()].to_vec();
             let motion = [of(recording.displacement()), of(recording.velocity())];
-            beside_the_motion(&residual, &motion, recording).unwrap_or(residual)
+            let left = beside_the_motion(&residual, &motion, recording).unwrap_or(residual);
+            match recording.current() {
+                Condition::Series(current) if recording.current().varies() => {
+                    let current = [of(current), of(&differences(current))];
+                    beside_the_motion(&left, &current, recording).unwrap_or(left)
+                }
+                _ => left,
+            }
         })
         .collect()
+}
+
+/// Differences of a series from sample to sample; the first is that of the second.
+fn differences(series: &[f64]) -> Vec<f64> {
+    let later = series.windows(2).map(|pair| pair[1] - pair[0]);
+    later.clone().take(1).chain(later).collect()
 }
 
 /// A residual that follows the motion, less what follows it.

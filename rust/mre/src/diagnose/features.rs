@@ -97,6 +97,10 @@ pub(super) fn features(scene: &Scene) -> Vec<Feature> {
     {
         let share: Vec<f64> = current.iter().map(|i| (i - low) / (high - low)).collect();
         let slow = low_passed(scene, &share, 0.2);
+        for power in [1, 2] {
+            let column = share.iter().map(|s| s.powi(power)).collect();
+            found.push(Feature { on: On::Current, column });
+        }
         let square: Vec<f64> = share.iter().map(|s| s * s).collect();
         for q in [square, slow] {
             for motion in [&x, &v] {
