@@ -16,7 +16,8 @@ FINE = 10
 
 def current_of(kind: str, time: Array, velocity: Array, place: int) -> Array:
     if kind == "sine":
-        return 1.5 + 1.2 * np.sin(2 * np.pi * (0.4 + 0.5 * place) * time)
+        wave: Array = 1.5 + 1.2 * np.sin(2 * np.pi * (0.4 + 0.5 * place) * time)
+        return wave
     if kind == "follows":
         # A controller that follows the speed, with kinks where that turns.
         return lagged(2 * np.abs(np.tanh(velocity / 30)), 0.02, time[1])
