@@ -16,15 +16,15 @@ FINE = 10
 
 def current_of(kind: str, time: Array, velocity: Array, place: int) -> Array:
     if kind == "sine":
-        wave: Array = 1.5 + 1.2 * np.sin(2 * np.pi * (0.4 + 0.5 * place) * time)
-        return wave
+        return 1.5 + 1.2 * np.sin(2 * np.pi * (0.4 + 0.5 * place) * time)
     if kind == "follows":
         # A controller that follows the speed, with kinks where that turns.
         return lagged(2 * np.abs(np.tanh(velocity / 30)), 0.02, time[1])
     if kind == "on and off":
         return np.where(velocity * (velocity + 20 * np.sin(5.7 * time + 1)) > 0, 2.0, 0.0)
     period = 1.3 + 0.05 * place
-    return np.array([0.0, 2.0, 1.0, 3.0, 0.0, 2.0])[(time / period + 1e-9).astype(int) % 6]
+    levels: Array = np.array([0.0, 2.0, 1.0, 3.0, 0.0, 2.0])[(time / period + 1e-9).astype(int) % 6]
+    return levels
 
 
 def lagged(series: Array, tau: float, step: float) -> Array:
