@@ -110,7 +110,7 @@ mod tests {
         };
         for (of, share) in [(&smooth as &dyn Fn(f64) -> f64, 0.25), (&stepped, 0.3), (&late, 0.6)] {
             let [time, truth, shown] = measured(of);
-            let (_, calm) = Stepped::of(&time, &shown).expect("noise");
+            let calm = Stepped::of(&time, &shown).map_or_else(|| shown.clone(), |(_, calm)| calm);
             let left = rms(&calm, &truth) / rms(&shown, &truth);
             assert!(left < share, "{left}");
         }
