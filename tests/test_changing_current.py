@@ -131,3 +131,15 @@ def test_a_spring_that_bends_with_the_current_is_named(
 
     found = diagnosed(campaign("sine", bent, 5))
     assert (found.verdict, named(found)) == ("missing_physics", [(effect, law)])
+
+
+@pytest.mark.parametrize(("kind", "meter"), [("sine", 0.1), ("follows", 0.05)])
+def test_a_filter_that_smooths_noise_of_the_meter_does_not_rule_out_a_delay(kind: str, meter: float) -> None:
+    def late(x: Array, v: Array, field: Array) -> Array:
+        force = kelvin_voigt(x, v, field)
+        steps = round(0.006 * RATE * FINE)
+        return np.concatenate([np.full(steps, force[0]), force[:-steps]])
+
+    found = diagnosed(campaign(kind, late, 6, meter=meter))
+    (effect,) = found.effects
+    assert {effect.id, *effect.indistinguishable_from} == {"time_delay", "filter_lag"}

@@ -8,7 +8,7 @@ use crate::error::{Error, Result};
 use crate::extent::Extent;
 use crate::model::Model;
 use crate::physics::Part;
-use crate::recording::{Condition, Recording};
+use crate::recording::Recording;
 
 /// Parameters at one current.
 #[derive(Debug, Clone, PartialEq)]
@@ -154,15 +154,10 @@ pub(crate) fn computed(model: &Model, recording: &Recording, start: usize, force
 }
 
 fn currents(recording: &Recording) -> Result<Vec<f64>> {
-    match recording.current() {
-        Condition::Series(values) if recording.current().varies() => Ok(values.clone()),
-        known => match known.level() {
-            Some(level) => Ok(vec![level; recording.len()]),
-            None => Err(Error::Recording(
-                "the model has several levels of current, and the recording none: set current=VALUE[A]"
-                    .into(),
-            )
-            .in_recording(recording.name())),
-        },
-    }
+    let current = recording.current();
+    let constant = || current.level().map(|level| vec![level; recording.len()]);
+    current.changing().map(<[f64]>::to_vec).or_else(constant).ok_or_else(|| {
+        let text = "the model has several levels of current, and the recording none: set current=VALUE[A]";
+        Error::Recording(text.into()).in_recording(recording.name())
+    })
 }

@@ -144,11 +144,10 @@ impl Law {
     fn shares(&self, recording: &Recording) -> [Vec<f64>; 2] {
         let Self::Affine { low, high, .. } = self else { return [vec![1.0; recording.len()], Vec::new()] };
         let share = |i: f64| ((i - low) / (high - low)).clamp(0.0, 1.0);
-        let upper: Vec<f64> = match recording.current() {
-            Condition::Series(current) if recording.current().varies() => {
-                current.iter().map(|i| share(*i)).collect()
-            }
-            known => vec![share(known.level().unwrap_or(*low)); recording.len()],
+        let current = recording.current();
+        let upper: Vec<f64> = match current.changing() {
+            Some(changing) => changing.iter().map(|i| share(*i)).collect(),
+            None => vec![share(current.level().unwrap_or(*low)); recording.len()],
         };
         [upper.iter().map(|w| 1.0 - w).collect(), upper]
     }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::motion::Doubts;
 use crate::kernel::filter::{dot, third_differences};
-use crate::recording::{Condition, Recording};
+use crate::recording::Recording;
 use crate::spread::deviation;
 use crate::velocity::Stepped;
 
@@ -59,11 +59,7 @@ struct Calm {
 impl Calm {
     /// None where the current does not change within a recording, or has no noise.
     fn of(recording: &Recording) -> Option<Self> {
-        let condition = recording.current();
-        let Condition::Series(measured) = condition else { return None };
-        if !condition.varies() {
-            return None;
-        }
+        let measured = recording.current().changing()?;
         let (left, current) = Stepped::of(recording.time(), measured)?;
         let taken: Vec<f64> = measured.iter().zip(&current).map(|(all, own)| all - own).collect();
         let worth = dot(&taken, &taken) > WORTH.powi(2) * dot(measured, measured);

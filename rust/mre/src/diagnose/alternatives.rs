@@ -11,6 +11,7 @@ use super::next_test::Rival;
 use super::noise::Noise;
 use super::other_laws::{doubted, each_once, fits, unfitted};
 use super::search::{Named, REFITTED, Search};
+use super::shaken::{MOST as MOST_OF_NOISE, left_by_noise};
 use super::strained::strained;
 use crate::effect::About;
 
@@ -64,7 +65,17 @@ pub(super) fn rivals<'a>(
         let apart = model.added() != Some(known.effect) && paid > own + APART;
         if apart && fits_better(model, &named.fitted, data) { own } else { paid }
     };
-    let behind: Vec<f64> = found.par_iter().map(|model| as_rival(model) - own).collect();
+    let of_noise = left_by_noise(&named.assembly, data, &named.fitted);
+    // A filter smooths noise of the motion or of the current that a delay follows, whichever is true.
+    let behind = |model: &Candidate| {
+        let far = as_rival(model) - own;
+        if far <= APART {
+            return far;
+        }
+        let more = left_by_noise(&model.assembly, data, &model.fitted) - of_noise;
+        far - MOST_OF_NOISE * more.max(0.0)
+    };
+    let behind: Vec<f64> = found.par_iter().map(behind).collect();
     let within = |far: f64| {
         let near = found.iter().zip(&behind).filter(move |(_, behind)| **behind <= far);
         near.filter_map(|(model, _)| model.added()).filter(|effect| *effect != known.effect)

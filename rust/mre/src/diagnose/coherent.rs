@@ -11,7 +11,7 @@ use super::distribution::{CAUTION, chi_square_tail};
 use super::hum::without_hum;
 use crate::assembly::Assembly;
 use crate::kernel::filter::dot;
-use crate::recording::{Condition, Recording};
+use crate::recording::Recording;
 
 /// A residual follows the motion where that is more than such a share of its squares in two halves,
 const MOST: f64 = 0.5;
@@ -44,13 +44,9 @@ pub(super) fn without_the_coherent(assembly: &Assembly, residuals: Vec<Vec<f64>>
             let of = |series: &[f64]| series[recording.scored()].to_vec();
             let motion = [of(recording.displacement()), of(recording.velocity())];
             let left = beside_the_motion(&residual, &motion, recording).unwrap_or(residual);
-            match recording.current() {
-                Condition::Series(current) if recording.current().varies() => {
-                    let current = [of(current), of(&differences(current))];
-                    beside_the_motion(&left, &current, recording).unwrap_or(left)
-                }
-                _ => left,
-            }
+            let Some(current) = recording.current().changing() else { return left };
+            let current = [of(current), of(&differences(current))];
+            beside_the_motion(&left, &current, recording).unwrap_or(left)
         })
         .collect()
 }

@@ -8,7 +8,7 @@
 use nalgebra::DVector;
 use rayon::prelude::*;
 
-use super::least_squares::Data;
+use super::least_squares::{Data, Fitted};
 use super::normal::whitened;
 use super::point::Point;
 use super::projection::View;
@@ -38,6 +38,17 @@ pub(super) type Change = Vec<Vec<f64>>;
 /// Squared standard deviations in all.
 pub(super) fn square(change: &Change) -> f64 {
     change.iter().map(|c| dot(c, c)).sum()
+}
+
+/// What noise of the motions leaves a fitted model to explain, in squared standard deviations: a model that follows it
+/// leaves more than one that smooths it, whichever is true.
+pub(super) fn left_by_noise(assembly: &Assembly, data: Data, fitted: &Fitted) -> f64 {
+    if assembly.campaign().shaken().is_empty() {
+        return 0.0;
+    }
+    let (some, more) = Shaken::of(assembly, data, &Point::at(assembly, data, fitted.unit.clone()));
+    let squares: Vec<f64> = some.iter().map(Shaken::change).chain(&more).map(square).collect();
+    squares.iter().sum::<f64>() / squares.len().max(1) as f64
 }
 
 /// A fitted model on motions with their noise added once more.

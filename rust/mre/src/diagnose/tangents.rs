@@ -7,20 +7,16 @@ use super::normal::whitened;
 use super::point::Point;
 use crate::assembly::Assembly;
 use crate::kernel::filter::dot;
-use crate::recording::Condition;
 
 /// What may be noise of a derived motion, whitened: the force does not follow it, so that every coefficient of it is
 /// possible; and every dependence of that on a current that changes.
 fn noisy(assembly: &Assembly, data: Data, r: usize) -> impl Iterator<Item = Vec<f64>> {
     let recording = &assembly.campaign().recordings()[r];
-    let current = match recording.current() {
-        Condition::Series(current) if recording.current().varies() => Some(current),
-        _ => None,
-    };
+    let current = recording.current().changing();
     let all = assembly.campaign().doubts()[r].noisy.iter().flatten();
     let white = move |series: &[f64]| whitened(data.noise, r, &data.rows[r], series);
     all.flat_map(move |series| {
-        let product = |current: &Vec<f64>| series.iter().zip(current).map(|(s, i)| s * i).collect::<Vec<_>>();
+        let product = |current: &[f64]| series.iter().zip(current).map(|(s, i)| s * i).collect::<Vec<_>>();
         std::iter::once(white(series)).chain(current.map(|current| white(&product(current))))
     })
 }

@@ -14,7 +14,7 @@
 
 use super::smooth_lag::{jumping_lag, smooth_lag, smooth_ringing};
 use super::{About, Effect, Scene, Sizes, ideal_above, order_within, within};
-use crate::kernel::jumps::steps;
+use crate::kernel::jumps::jumps_after;
 use crate::parameter::Parameter;
 
 /// Time constants that a fit starts from, s.
@@ -134,7 +134,7 @@ impl Effect for FieldLag {
 
 /// Field of a current whose own time constants are those of its rise and fall, and which jumps after a share of a step.
 fn rise_and_fall(scene: &Scene, current: &[f64], [rise, fall]: [f64; 2], share: f64) -> Vec<f64> {
-    let jumps = steps(current);
+    let jumps = jumps_after(current);
     scene.trace(current[0], |field, i| {
         let step = scene.time[i] - scene.time[i - 1];
         let towards = |target: f64, step: f64, field: f64| {

@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use super::Motion;
-use crate::kernel::jumps::steps;
+use crate::kernel::jumps::jumps_after;
 use crate::recording::{Condition, Past, Recording};
 use crate::velocity;
 
@@ -185,9 +185,9 @@ impl Sizes {
             };
             let known = sizes.current.get_or_insert((low, high));
             *known = (known.0.min(low), known.1.max(high));
-            sizes.current_varies |= r.current().varies();
-            if let Condition::Series(i) = r.current() {
-                sizes.current_steps |= r.current().varies() && !steps(i).is_empty();
+            if let Some(changing) = r.current().changing() {
+                sizes.current_varies = true;
+                sizes.current_steps |= !jumps_after(changing).is_empty();
             }
         }
         let sizes = sizes.above_zero();

@@ -6,7 +6,7 @@
 
 use nalgebra::{Complex, ComplexField};
 
-use crate::kernel::jumps::steps;
+use crate::kernel::jumps::jumps_after;
 use crate::kernel::relaxation::{runs, weights};
 
 /// `y' = (u - y) / tau` from `start`.
@@ -19,7 +19,7 @@ pub(super) fn jumping_lag(time: &[f64], input: &[f64], tau: f64, share: f64) -> 
     let mut out = Vec::with_capacity(input.len());
     let mut from = 0;
     let mut y = input[0];
-    for jump in steps(input).into_iter().chain([input.len() - 1]) {
+    for jump in jumps_after(input).into_iter().chain([input.len() - 1]) {
         let part = from..jump + 1;
         out.extend(smooth_lag(&time[part.clone()], &input[part], tau, y));
         let Some(next) = time.get(jump + 1) else { break };

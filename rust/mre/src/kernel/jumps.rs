@@ -67,7 +67,7 @@ pub(crate) fn jumps(time: &[f64], displacement: &[f64], velocity: &[f64]) -> Vec
 }
 
 /// Samples after which a series on an even grid jumps, in order.
-pub(crate) fn steps(values: &[f64]) -> Vec<usize> {
+pub(crate) fn jumps_after(values: &[f64]) -> Vec<usize> {
     let (low, high) = crate::recording::extent(values);
     (0..values.len()).filter(|i| sharp(values, high - low, *i, ALONE)).collect()
 }

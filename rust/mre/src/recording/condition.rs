@@ -30,6 +30,14 @@ impl Condition {
 
     /// True where the quantity changes during the recording.
     pub fn varies(&self) -> bool {
-        matches!(self, Self::Series(_)) && self.level().is_none()
+        self.changing().is_some()
+    }
+
+    /// The samples of a quantity that changes during the recording.
+    pub(crate) fn changing(&self) -> Option<&[f64]> {
+        match self {
+            Self::Series(values) if self.level().is_none() => Some(values),
+            _ => None,
+        }
     }
 }

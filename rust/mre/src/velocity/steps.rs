@@ -41,7 +41,7 @@ impl Stepped {
         if noise <= 0.0 {
             return None;
         }
-        let after = steps(series, noise);
+        let after = steps_in_noise(series, noise);
         let mut smoothing = if after.is_empty() {
             Smoothing(vec![(0..time.len(), Window::best(time, series, usize::MAX, &[TERMS]))])
         } else {
@@ -64,7 +64,7 @@ impl Stepped {
 
 /// The last samples before steps of a series whose noise has this standard deviation: at least one side of a step is
 /// quieter.
-fn steps(series: &[f64], noise: f64) -> Vec<usize> {
+fn steps_in_noise(series: &[f64], noise: f64) -> Vec<usize> {
     let changes: Vec<f64> = series.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
     let noise = std::f64::consts::SQRT_2 * noise;
     let stands_out = |i: &usize| {
