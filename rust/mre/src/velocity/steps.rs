@@ -34,7 +34,7 @@ pub(crate) struct Stepped {
 impl Stepped {
     /// How it is taken off a series at times in s, and what is left; `None` where it has none.
     ///
-    /// The windows are half as wide as those of the least error: what a current that follows the motion loses at its kinks
+    /// The windows are a third as wide as those of the least error: what a current that follows the motion loses at its kinks
     /// goes with the motion as well, and is no noise.
     pub(crate) fn of(time: &[f64], series: &[f64]) -> Option<(Self, Vec<f64>)> {
         let noise = deviation(&third_differences(series)) / THIRD.sqrt();
@@ -48,7 +48,7 @@ impl Stepped {
             Smoothing::between(&after, time, series, &PART_TERMS)
         };
         for (_, window) in &mut smoothing.0 {
-            window.half = (window.half / 2).max(NARROWEST.min(window.half));
+            window.half = (window.half / 3).max(NARROWEST.min(window.half));
         }
         let (_, smooth) = smoothing.over(time, series);
         let noise = smoothing.noise(series, &smooth).0;
