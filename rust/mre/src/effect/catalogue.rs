@@ -428,6 +428,8 @@ pub const CATALOGUE: &[&dyn Effect] = &[
     &FilterLag::Displacement,
     &FilterLag::Butterworth,
     &FilterLag::Two,
+    &FilterLag::Third,
+    &FilterLag::Fourth,
     &Creep::Logarithmic,
     &Creep::Box,
     &Creep::Slow,

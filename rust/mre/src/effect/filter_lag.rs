@@ -11,7 +11,7 @@
 //! Known limit: with all frequencies far below the corner it is a time delay; recordings that a filter delays by so
 //! much that the device would give out energy in every cycle are refused.
 
-use std::f64::consts::{SQRT_2, TAU};
+use std::f64::consts::{PI, TAU};
 
 use nalgebra::Complex;
 
@@ -29,8 +29,10 @@ pub(super) enum FilterLag {
     Two,
     /// The displacement, by a first-order lag.
     Displacement,
-    /// The force, by a second-order Butterworth filter.
+    /// The force, by a Butterworth filter of second, third or fourth order.
     Butterworth,
+    Third,
+    Fourth,
 }
 
 /// `Re(share y)` of `y' = rate (u - y)`, at rest at the first value: exact for the natural cubic spline through evenly
@@ -54,10 +56,15 @@ fn first_order(step: f64, input: &[f64], tau: f64) -> Vec<f64> {
     filtered(step, input, Complex::from(1.0 / tau), Complex::from(1.0))
 }
 
-/// Second-order Butterworth filter, by one of its two poles.
-fn butterworth(step: f64, input: &[f64], corner: f64) -> Vec<f64> {
-    let rate = Complex::new(1.0, -1.0) * (TAU * corner / SQRT_2);
-    filtered(step, input, rate, Complex::new(0.0, -SQRT_2 * TAU * corner) / rate)
+/// Butterworth filter of an order: poles evenly on a half circle, by one of each pair.
+fn butterworth(step: f64, input: &[f64], corner: f64, order: u8) -> Vec<f64> {
+    let w = TAU * corner;
+    let real = if order % 2 == 1 { first_order(step, input, 1.0 / w) } else { input.to_vec() };
+    (0..order / 2).fold(real, |passed, pair| {
+        let from_real = PI * (0.5 - (f64::from(pair) + 0.5) / f64::from(order));
+        let rate = Complex::from_polar(w, -from_real);
+        filtered(step, &passed, rate, Complex::new(0.0, -w / from_real.sin()) / rate)
+    })
 }
 
 impl FilterLag {
@@ -67,7 +74,9 @@ impl FilterLag {
             Self::Force => Some(first_order(step, force, shape[0])),
             Self::Two => Some(first_order(step, &first_order(step, force, shape[0]), shape[1])),
             Self::Displacement => None,
-            Self::Butterworth => Some(butterworth(step, force, shape[0])),
+            Self::Butterworth => Some(butterworth(step, force, shape[0], 2)),
+            Self::Third => Some(butterworth(step, force, shape[0], 3)),
+            Self::Fourth => Some(butterworth(step, force, shape[0], 4)),
         }
     }
 }
@@ -101,6 +110,18 @@ impl Effect for FilterLag {
                 reference: "Butterworth 1930",
                 ..force
             },
+            Self::Third => About {
+                law: "force, Butterworth of third order",
+                equation: "|F_measured/F| = 1/sqrt(1 + (f/f_c)^6) at frequency f",
+                reference: "Butterworth 1930",
+                ..force
+            },
+            Self::Fourth => About {
+                law: "force, Butterworth of fourth order",
+                equation: "|F_measured/F| = 1/sqrt(1 + (f/f_c)^8) at frequency f",
+                reference: "Butterworth 1930",
+                ..force
+            },
         }
     }
 
@@ -109,7 +130,9 @@ impl Effect for FilterLag {
         match self {
             Self::Force | Self::Displacement => vec![lag("T")],
             Self::Two => vec![lag("T"), ideal_below(lag("T_2"))],
-            Self::Butterworth => vec![order_within("f_c", "Hz", 3.0, 2000.0)],
+            Self::Butterworth | Self::Third | Self::Fourth => {
+                vec![order_within("f_c", "Hz", 3.0, 2000.0)]
+            }
         }
     }
 
@@ -117,7 +140,9 @@ impl Effect for FilterLag {
         match self {
             Self::Force | Self::Displacement => vec![vec![0.0005], vec![0.002], vec![0.008], vec![0.025]],
             Self::Two => vec![vec![0.002, 0.0005], vec![0.008, 0.002], vec![0.02, 0.008]],
-            Self::Butterworth => vec![vec![6.0], vec![15.0], vec![40.0], vec![120.0]],
+            Self::Butterworth | Self::Third | Self::Fourth => {
+                vec![vec![6.0], vec![15.0], vec![40.0], vec![120.0]]
+            }
         }
     }
 
