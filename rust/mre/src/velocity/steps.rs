@@ -108,7 +108,7 @@ mod tests {
             let before = stepped((t - since - 0.1).max(0.0));
             stepped(t) + (before - stepped(t)) * (-since / 0.03).exp()
         };
-        for (of, share) in [(&smooth as &dyn Fn(f64) -> f64, 0.25), (&stepped, 0.3), (&late, 0.6)] {
+        for (of, share) in [(&smooth as &dyn Fn(f64) -> f64, 0.3), (&stepped, 0.2), (&late, 0.6)] {
             let [time, truth, shown] = measured(of);
             let calm = Stepped::of(&time, &shown).map_or_else(|| shown.clone(), |(_, calm)| calm);
             let left = rms(&calm, &truth) / rms(&shown, &truth);
