@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from . import _core
 from ._core import Recording
 from .current_laws.variable import UNITS, series_of
 
@@ -57,5 +58,23 @@ def beyond_tested(model: "Model", recording: Recording) -> list[str]:
                 f"{model.over} goes {beyond:.3g} {UNITS[model.over]} beyond the tested {low:.4g} to"
                 f" {high:.4g}: the parameters of the nearest are taken"
             )
+    found += _beyond_tested_temperature(model, recording)
     name = f"recording '{recording.name}': " if recording.name else ""
     return [name + sentence for sentence in found]
+
+
+def _beyond_tested_temperature(model: "Model", recording: Recording) -> list[str]:
+    tested = model.sizes.get("temperature")
+    if tested is None or recording.temperature is None or not _feels_temperature(model):
+        return []
+    low, high = tested
+    values = np.asarray(recording.temperature)
+    beyond = max(low - float(values.min()), float(values.max()) - high)
+    if beyond <= 0.05 * (high - low):
+        return []
+    return [f"temperature goes {beyond:.3g} degC beyond the tested {low:.4g} to {high:.4g}: its law goes on"]
+
+
+def _feels_temperature(model: "Model") -> bool:
+    laws = {(row["id"], row["law"]) for row in _core.catalogue() if row["feels_temperature"]}
+    return any((effect.id, effect.law) in laws for effect in model.effects)

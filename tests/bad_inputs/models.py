@@ -28,6 +28,14 @@ def text_for_k0(model: Any) -> None:
     model["levels"][0]["parameters"]["k0"]["value"] = "stiff"
 
 
+def warm(model: Any) -> None:
+    """Stiffness over a recorded temperature."""
+    names = ("displacement", "velocity", "force", "step", "duration", "total", "path", "energy")
+    model["sizes"] = dict.fromkeys(names, 1.0) | {"temperature": [10.0, 40.0]}
+    law = {"id": "thermal_softening", "law": "recorded temperature, stiffness"}
+    model["effects"] = [law | {"parameters": {"s": {"value": 0.4, "unit": ""}}}]
+
+
 MODELS = {
     "model missing": Command(
         ["simulate", "no.json", *SIMULATE[2:]], ["no.json: cannot be read: No such file"]
@@ -48,6 +56,9 @@ MODELS = {
     "start is not JSON": Command([*IDENTIFY, "--model", "m.json"], ["m.json: is not JSON"], {"m.json": b"x"}),
     "several levels and no current": Command(
         SIMULATE, ["recording 'a'", "several levels", "current=VALUE[A]"], {"model.json": content(two_levels)}
+    ),
+    "a law over the temperature and none": Command(
+        SIMULATE, ["recording 'a'", "temperature=VALUE[degC]"], {"model.json": content(warm)}
     ),
     "simulate without displacement": Command(
         SIMULATE, ["a.csv: ", "no column for displacement"], {"a.csv": headed("time_s,x,force_N")}

@@ -24,6 +24,7 @@ pub(crate) fn catalogue(py: Python<'_>) -> PyResult<Vec<Bound<'_, PyDict>>> {
         row.set_item("reference", about.reference)?;
         row.set_item("limit", about.limit)?;
         row.set_item("of_the_measurement", known.of_the_measurement())?;
+        row.set_item("feels_temperature", known.feels_temperature())?;
         Ok(row)
     };
     CATALOGUE.iter().map(row).collect()
@@ -117,18 +118,19 @@ pub(crate) fn sizes(given: &Bound<'_, PyMapping>) -> PyResult<Sizes> {
         // Models of before there were laws that need it have none.
         dissipated: item("dissipated").map_or_else(|| number("energy"), |_| number("dissipated"))?,
         life: item("life").map_or(Ok(1.0), |_| number("life"))?,
-        current: item("current").map(|value| ends(&value)).transpose()?,
+        current: item("current").map(|value| ends("current", "A", &value)).transpose()?,
         current_varies: yes("current_varies")?,
         current_steps: yes("current_steps")?,
+        temperature: item("temperature").map(|value| ends("temperature", "degC", &value)).transpose()?,
         quantum: item("quantum").map(|_| number("quantum")).transpose()?,
     })
 }
 
-/// Lowest and highest current in A.
-fn ends(value: &Bound<'_, PyAny>) -> PyResult<(f64, f64)> {
+/// Lowest and highest of a condition.
+fn ends(name: &str, unit: &str, value: &Bound<'_, PyAny>) -> PyResult<(f64, f64)> {
     match value.extract::<[f64; 2]>() {
         Ok([low, high]) if -LARGEST <= low && low <= high && high <= LARGEST => Ok((low, high)),
-        _ => Err(unusable("current", "the lowest and the highest, in A")),
+        _ => Err(unusable(name, &format!("the lowest and the highest, in {unit}"))),
     }
 }
 
@@ -153,6 +155,7 @@ pub(crate) fn any_sizes() -> Sizes {
         current: Some((0.0, 1.0)),
         current_varies: true,
         current_steps: true,
+        temperature: Some((20.0, 40.0)),
         quantum: None,
     }
 }

@@ -235,6 +235,6 @@ fn sizes(found: &Diagnosis) -> Value {
         "duration": s.duration, "total": s.total, "path": s.path, "energy": s.energy,
         "dissipated": s.dissipated, "life": s.life,
         "current": s.current, "current_varies": s.current_varies, "current_steps": s.current_steps,
-        "quantum": s.quantum,
+        "temperature": s.temperature, "quantum": s.quantum,
     })
 }

@@ -5,7 +5,7 @@ mod describe;
 use std::collections::BTreeMap;
 
 use describe::After;
-use mre::assembly::{Base, Campaign, Kept};
+use mre::assembly::{Base, Campaign, Kept, temperature_known};
 use mre::diagnose::{self, GivenLimits, KINDS, Limits, Monitor, Settings, Stage};
 use mre::error::{Error, Result};
 use numpy::PyArray1;
@@ -78,6 +78,8 @@ pub(crate) fn diagnose_recordings<'py>(
                 let sizes = campaign.sizes().clone().of_one_device();
                 campaign = campaign.sized(&sizes);
             }
+            let of_the_base = kept.iter().map(|k| k.effect).chain(own.iter().map(|(effect, _)| *effect));
+            recordings.iter().try_for_each(|r| temperature_known(of_the_base.clone(), r))?;
             let base = match (held, given) {
                 (Some(device), _) => Base::Held(match sizes {
                     Some(sizes) => Kept::with_effects(device, kept, sizes),

@@ -12,7 +12,7 @@ use super::metered::without_noise_of_the_meter;
 use super::motion::{Doubts, of_one_motion, shaken};
 use crate::effect::{Acceleration, Scene, Sizes};
 use crate::error::{Error, Result};
-use crate::recording::{Condition, Recording};
+use crate::recording::Recording;
 use crate::velocity::Left;
 
 /// Times that the noise of motions is drawn anew.
@@ -24,6 +24,7 @@ pub struct Campaign {
     recordings: Vec<Arc<Recording>>,
     accelerations: Vec<OnceLock<Vec<f64>>>,
     currents: Vec<Option<Vec<f64>>>,
+    temperatures: Vec<Option<Vec<f64>>>,
     halves: Vec<OnceLock<Option<Recording>>>,
     doubts: Vec<Doubts>,
     shaken: OnceLock<Vec<Campaign>>,
@@ -60,7 +61,8 @@ impl Campaign {
     pub(crate) fn with_sizes(recordings: Vec<Arc<Recording>>, sizes: Sizes) -> Self {
         let accelerations = vec![OnceLock::new(); recordings.len()];
         let halves = vec![OnceLock::new(); recordings.len()];
-        let currents = recordings.iter().map(|r| current(r)).collect();
+        let currents = recordings.iter().map(|r| r.current().sampled(r.len())).collect();
+        let temperatures = recordings.iter().map(|r| r.temperature().sampled(r.len())).collect();
         let mut total = 0.0;
         let before = recordings
             .iter()
@@ -72,7 +74,7 @@ impl Campaign {
             .collect();
         let doubts = vec![Doubts::default(); recordings.len()];
         let shaken = OnceLock::new();
-        Self { recordings, accelerations, currents, halves, doubts, shaken, before, sizes }
+        Self { recordings, accelerations, currents, temperatures, halves, doubts, shaken, before, sizes }
     }
 
     /// The same with doubts about the motions, by recording.
@@ -114,11 +116,12 @@ impl Campaign {
         Self::with_sizes(recordings, self.sizes.clone()).doubting(doubts)
     }
 
-    /// The same with other sizes; in what steps the force is measured stays its own.
+    /// The same with other sizes; in what steps the force is measured, and whether temperatures are known, stays its own.
     #[must_use]
     pub fn sized(self, sizes: &Sizes) -> Self {
-        let quantum = self.sizes.quantum;
-        Self { sizes: Sizes { quantum, ..sizes.clone() }, ..self }
+        let Sizes { temperature, quantum, .. } = self.sizes;
+        let temperature = temperature.map(|own| sizes.temperature.unwrap_or(own));
+        Self { sizes: Sizes { temperature, quantum, ..sizes.clone() }, ..self }
     }
 
     /// The recordings.
@@ -152,6 +155,7 @@ impl Campaign {
             velocity: recording.velocity(),
             acceleration: Acceleration { recording, known: &self.accelerations[r] },
             current: self.currents[r].as_deref(),
+            temperature: self.temperatures[r].as_deref(),
             force,
             whole,
             fading: &[],
@@ -159,14 +163,6 @@ impl Campaign {
             past: recording.past().unwrap_or_default(),
             sizes: &self.sizes,
         }
-    }
-}
-
-fn current(recording: &Recording) -> Option<Vec<f64>> {
-    match recording.current() {
-        Condition::Missing => None,
-        Condition::Constant(i) => Some(vec![*i; recording.len()]),
-        Condition::Series(i) => Some(i.clone()),
     }
 }
 

@@ -14,7 +14,7 @@ use crate::recording::Recording;
 #[derive(Debug)]
 pub struct Kept {
     device: Device,
-    effects: Option<(Vec<Addition>, Sizes)>,
+    effects: Option<(Vec<Addition>, Box<Sizes>)>,
 }
 
 impl Kept {
@@ -25,7 +25,7 @@ impl Kept {
 
     /// A device with effects; `sizes` are those of the recordings that they were fitted to.
     pub fn with_effects(device: Device, effects: Vec<Addition>, sizes: Sizes) -> Self {
-        Self { device, effects: Some((effects, sizes)) }
+        Self { device, effects: Some((effects, Box::new(sizes))) }
     }
 
     /// The model of the device.

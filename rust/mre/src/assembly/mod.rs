@@ -24,4 +24,4 @@ pub use columns::Columns;
 pub use kept::Kept;
 pub use layout::Assembly;
 pub(crate) use motion::Doubts;
-pub use simulate::{Addition, Source, simulate};
+pub use simulate::{Addition, Source, simulate, temperature_known};

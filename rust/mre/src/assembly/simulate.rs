@@ -10,7 +10,7 @@ use crate::effect::{Effect, Factors, Flexibility, Scene, Sizes};
 use crate::error::{Error, Result};
 use crate::kernel::filter::dot;
 use crate::physics::Part;
-use crate::recording::Recording;
+use crate::recording::{Condition, Recording};
 
 /// Passes until the force agrees with what effects saw of it.
 pub(super) const PASSES: usize = 40;
@@ -81,6 +81,7 @@ pub fn simulate(
     if additions.is_empty() {
         return Ok(alone);
     }
+    temperature_known(additions.iter().map(|added| added.effect), recording)?;
     let campaign = Campaign::with_sizes(vec![recording.clone()], sizes.clone());
     let flexibility =
         additions.iter().filter_map(|a| a.effect.flexibility(&a.shape)).reduce(Flexibility::and);
@@ -116,6 +117,25 @@ pub fn simulate(
             let text = format!("the force with effects is not finite at {} s", recording.time()[i]);
             Err(Error::Recording(text).in_recording(recording.name()))
         }
+    }
+}
+
+/// Refuse a recording without temperature where an effect follows it.
+///
+/// # Errors
+/// There is such an effect, and no temperature.
+pub fn temperature_known(
+    mut effects: impl Iterator<Item = &'static dyn Effect>,
+    recording: &Recording,
+) -> Result<()> {
+    match (effects.find(|effect| effect.feels_temperature()), recording.temperature()) {
+        (Some(effect), Condition::Missing) => {
+            let effect = effect.about().effect;
+            let text =
+                format!("{effect} follows the temperature, and there is none: set temperature=VALUE[degC]");
+            Err(Error::Recording(text).in_recording(recording.name()))
+        }
+        _ => Ok(()),
     }
 }
 

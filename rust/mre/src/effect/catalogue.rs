@@ -31,6 +31,7 @@ use super::payne::{Amplitude, Payne};
 use super::pinched::Pinched;
 use super::pinching::{Middle, Pinching};
 use super::quadratic_damping::QuadraticDamping;
+use super::recorded_temperature::{RecordedTemperature, Softer};
 use super::remanence::Remanence;
 use super::rig::Rig;
 use super::slipping::Slipping;
@@ -238,6 +239,12 @@ pub const CATALOGUE: &[&dyn Effect] = &[
         name: "dissipated power, no cooling, damping by a share of its own",
         equation: "k -> k (1 - s T/T_max), c -> c (1 - r s T/T_max), T the largest integral of F v so far",
     },
+    &RecordedTemperature { softer: Softer::Stiffness, exponential: false },
+    &RecordedTemperature { softer: Softer::Whole, exponential: false },
+    &RecordedTemperature { softer: Softer::Each, exponential: false },
+    &RecordedTemperature { softer: Softer::Stiffness, exponential: true },
+    &RecordedTemperature { softer: Softer::Whole, exponential: true },
+    &RecordedTemperature { softer: Softer::Each, exponential: true },
     &Degradation { by: Progress::Path, form: Form::Steady, whole: false },
     &Degradation { by: Progress::Path, form: Form::Steady, whole: true },
     &Degradation { by: Progress::Path, form: Form::Saturating, whole: false },

@@ -46,6 +46,7 @@ mod pinched;
 mod pinching;
 mod quadratic_damping;
 mod quantisation;
+mod recorded_temperature;
 mod remanence;
 mod rig;
 mod scene;
@@ -117,6 +118,11 @@ pub trait Effect: Send + Sync {
     fn applies(&self, sizes: &Sizes) -> bool {
         let _ = sizes;
         true
+    }
+
+    /// True where it cannot be simulated without a recorded temperature.
+    fn feels_temperature(&self) -> bool {
+        false
     }
 
     /// Linear coefficients, one for each of [`Effect::columns`]; only `smallest` and `largest` are used of

@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use super::Motion;
 use crate::kernel::jumps::jumps_after;
-use crate::recording::{Condition, Past, Recording};
+use crate::recording::{Past, Recording};
 use crate::velocity;
 
 /// One recording as effects see it. All series have one value a sample.
@@ -20,6 +20,8 @@ pub struct Scene<'a> {
     pub acceleration: Acceleration<'a>,
     /// Coil current, A; `None` where it is not known.
     pub current: Option<&'a [f64]>,
+    /// Temperature, degC; `None` where it is not known.
+    pub temperature: Option<&'a [f64]>,
     /// Force of the base model as fitted without effects, N.
     pub force: &'a [f64],
     /// Force of the device with all its effects, N, as far as it is known: that of the base at first.
@@ -134,6 +136,8 @@ pub struct Sizes {
     pub current_varies: bool,
     /// True where it jumps between two samples of a recording.
     pub current_steps: bool,
+    /// Lowest and highest temperature, degC, where it is known of all recordings.
+    pub temperature: Option<(f64, f64)>,
     /// Step of the lattice on which all forces lie, N, if they do.
     pub quantum: Option<f64>,
 }
@@ -157,6 +161,7 @@ impl Sizes {
             current: None,
             current_varies: false,
             current_steps: false,
+            temperature: temperatures(recordings.clone()),
             quantum: super::quantisation::quantum(&forces),
         };
         let mut longest = 0.0_f64;
@@ -178,11 +183,7 @@ impl Sizes {
             sizes.path = sizes.path.max(path);
             sizes.energy = sizes.energy.max(work().map(f64::abs).sum());
             sizes.dissipated = sizes.dissipated.max(work().sum());
-            let (low, high) = match r.current() {
-                Condition::Missing => continue,
-                Condition::Constant(i) => (*i, *i),
-                Condition::Series(i) => crate::recording::extent(i),
-            };
+            let Some((low, high)) = r.current().extent() else { continue };
             let known = sizes.current.get_or_insert((low, high));
             *known = (known.0.min(low), known.1.max(high));
             if let Some(changing) = r.current().changing() {
@@ -222,4 +223,10 @@ impl Sizes {
         self.dissipated = self.dissipated.max(LEAST_DISSIPATED * self.energy);
         self
     }
+}
+
+/// Lowest and highest of all recordings; `None` where one of them has none.
+fn temperatures<'a>(recordings: impl Iterator<Item = &'a Recording>) -> Option<(f64, f64)> {
+    let all = recordings.map(|r| r.temperature().extent()).collect::<Option<Vec<_>>>()?;
+    all.into_iter().reduce(|all, one| (all.0.min(one.0), all.1.max(one.1)))
 }

@@ -55,6 +55,7 @@ impl Stage {
             velocity: self.recording.velocity(),
             acceleration: Acceleration { recording: &self.recording, known: &self.acceleration },
             current: self.current.as_deref(),
+            temperature: None,
             force: &self.force,
             whole: &self.force,
             fading: &[],

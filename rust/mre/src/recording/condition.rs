@@ -1,6 +1,6 @@
 //! A condition of a test: coil current, temperature.
 
-use super::mean;
+use super::{extent, mean};
 
 /// A quantity that is not recorded, constant, or recorded sample by sample.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,6 +25,24 @@ impl Condition {
                 let variance = values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / values.len() as f64;
                 (variance.sqrt() <= 0.01 + 0.02 * mean.abs()).then_some(mean)
             }
+        }
+    }
+
+    /// One value a sample, so many of them.
+    pub(crate) fn sampled(&self, samples: usize) -> Option<Vec<f64>> {
+        match self {
+            Self::Missing => None,
+            Self::Constant(value) => Some(vec![*value; samples]),
+            Self::Series(values) => Some(values.clone()),
+        }
+    }
+
+    /// The smallest and the largest value, noise included.
+    pub(crate) fn extent(&self) -> Option<(f64, f64)> {
+        match self {
+            Self::Missing => None,
+            Self::Constant(value) => Some((*value, *value)),
+            Self::Series(values) => Some(extent(values)),
         }
     }
 

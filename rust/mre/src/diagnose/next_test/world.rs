@@ -8,7 +8,7 @@ use super::excitation::Signal;
 use crate::assembly::{Assembly, Base, Campaign, Doubts, OnAnother};
 use crate::diagnose::candidates::Candidate;
 use crate::kernel::state_change::StateChange;
-use crate::recording::{Condition, Recording, Series};
+use crate::recording::{Condition, Recording, Series, mean};
 
 /// Models that are simulated side by side: more would take much memory.
 pub(super) const TOGETHER: usize = 16;
@@ -42,7 +42,7 @@ impl World {
             force: Some(force.unwrap_or_else(|| elastic(known, signal))),
             simulated: None,
             current,
-            temperature: like.temperature().clone(),
+            temperature: one_temperature(like),
             name: String::new(),
         })
         .ok()?
@@ -122,6 +122,12 @@ impl World {
             .collect();
         OnAnother::all(&models, (&self.campaign, &self.base)).into_iter().zip(widened).collect()
     }
+}
+
+/// A test is made at one temperature.
+fn one_temperature(like: &Recording) -> Condition {
+    let known = like.temperature().sampled(like.len());
+    known.map_or(Condition::Missing, |series| Condition::Constant(mean(&series)))
 }
 
 /// A force of the right size, until there is a better one.
