@@ -198,6 +198,7 @@ def simulate(
     recording: Recording,
     effects: Sequence[tuple[str, str, Sequence[float], Sequence[float]]] = ...,
     sizes: Mapping[str, Any] | None = None,
+    over: str = "current",
 ) -> NDArray[np.float64]: ...
 def catalogue() -> list[dict[str, Any]]: ...
 def effect_parameters(id: str, law: str) -> tuple[list[tuple[str, str]], list[tuple[str, str]], bool]: ...
@@ -210,6 +211,7 @@ def diagnose_recordings(
     false_alarm: float,
     seed: int,
     held: Sequence[tuple[float | None, Sequence[float]]] | None = None,
+    over: str = "current",
     held_effects: Sequence[tuple[str, str, Sequence[float], Sequence[float]]] = ...,
     sizes: Mapping[str, Any] | None = None,
     given: Sequence[ArrayLike] | None = None,

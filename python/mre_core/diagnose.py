@@ -4,6 +4,7 @@ import json
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
+from dataclasses import replace
 from numbers import Real
 from typing import Any, Literal
 
@@ -11,6 +12,7 @@ import numpy as np
 
 from . import _core
 from ._core import Recording
+from .base_levels import fitted, groups_for, held
 from .checks import check_listener, choice, flag, whole, workers
 from .diagnosis import Diagnosis, History, Refitted
 from .errors import InputError, shown
@@ -19,7 +21,6 @@ from .findings import (
     comparison,
     effect_of,
     hidden_effects,
-    levels_of,
     missing_effects,
     next_test_of,
     off_of,
@@ -126,12 +127,12 @@ def diagnose(
     ruled_out = _ruled_out(without)
     start = _read(base)
     name = start.name if isinstance(start, Model) else start
-    given = start.levels if isinstance(start, Model) and fixed else None
+    given = start if isinstance(start, Model) and fixed else None
     check_false_alarm(false_alarm)
     check_listener(on_stage, "on_stage")
     blank = whole(blank, "blank", 0, MOST_BLANKS)
     seed = draw_seed(seed)
-    levels = len(group_by_current(everything))
+    levels = len(group_by_current(everything) if fixed else groups_for(start, everything))
     check_once(everything)
     symbols = [] if name == SIMULATED else [symbol for symbol, _ in _core.parameters(name)]
     check_recordings(everything, 0 if fixed else len(symbols) * levels)
@@ -139,7 +140,7 @@ def diagnose(
     if (anew := _slopes(start, everything, fixed=fixed, threads=threads)).names:
         everything = anew.recordings
         keywords = _of_the_recordings(start, everything, limits, fixed=fixed)
-    groups = group_by_current(everything)
+    groups = group_by_current(everything) if fixed else groups_for(start, everything)
     places = {id(recording): place for place, recording in enumerate(everything)}
     text, before, after = _core.diagnose_recordings(
         everything,
@@ -155,26 +156,27 @@ def diagnose(
         **keywords,
     )
     raw = json.loads(text)
-    currents = [current for current, _ in groups]
 
-    def model(levels: Any, effects: Any) -> Model:
-        found = given or levels_of(symbols, currents, levels)
-        kept = start.effects if given and isinstance(start, Model) else ()
-        all_effects = (*kept, *map(effect_of, effects))
-        return Model(
-            name, found, largest_motion(everything), all_effects, raw["sizes"] if all_effects else {}
-        )
+    def model(levels: Any, effects: Any) -> tuple[Model, list[dict[str, Any]]]:
+        """Make the model, and say what of it is pressed against a limit."""
+        added = tuple(map(effect_of, effects))
+        if given is not None:
+            sizes = raw["sizes"] if given.effects or added else {}
+            tested = {**given.tested, **largest_motion(everything)}
+            return replace(given, tested=tested, effects=(*given.effects, *added), sizes=sizes), []
+        found, content = fitted(name, start, groups, levels)
+        whole = Model(name, **content, effects=added, sizes=raw["sizes"] if added else {})
+        return whole, pressed_in(found, whole.units, levels)
 
-    base_model = model(raw["base_levels"], raw["base_effects"])
-    if given and isinstance(start, Model):
-        base_model = start
+    base_model, pressed_base = model(raw["base_levels"], raw["base_effects"])
+    if given is not None:
+        base_model = given
     final, last = base_model, before
+    pressed = {"base": pressed_base}
     if raw["effects"]:
         in_order = sorted(raw["effects"], key=lambda effect: int(effect["place"]))
-        final, last = model(raw["final_levels"], [*raw["final_base_effects"], *in_order]), after
-    pressed = {"base": pressed_in(base_model, raw["base_levels"])}
-    if raw["effects"]:
-        pressed["final"] = pressed_in(final, raw["final_levels"])
+        final, pressed["final"] = model(raw["final_levels"], [*raw["final_base_effects"], *in_order])
+        last = after
     names = labels([recording.name for recording in everything])
     return Diagnosis(
         base=name,
@@ -271,6 +273,5 @@ def _base(start: str | Model, recordings: Sequence[Recording], *, fixed: bool) -
             raise InputError(f"the base is '{start}' and fixed", wanted="a model.json, which has parameters")
         for recording in recordings:
             simulate(start, recording)  # says what it cannot follow
-        kept = {"held_effects": [e.given() for e in effects], "sizes": start.sizes} if effects else {}
-        return {"held": start.given(), **kept}
+        return held(start, recordings)
     return {"base_effects": [(e.id, e.law, e.given()[3]) for e in effects]}

@@ -10,7 +10,7 @@ from . import words
 from ._core import Recording
 from .diagnosis import Comparison, Estimate, MissingEffect
 from .effects import Effect
-from .model import Level, Model
+from .model import Level
 from .told_apart import check
 
 Series = NDArray[np.float64]
@@ -46,7 +46,9 @@ def levels_of(
     )
 
 
-def pressed_in(model: Model, groups: Sequence[Raw]) -> list[dict[str, Any]]:
+def pressed_in(
+    levels: Sequence[Level], units: Mapping[str, str], groups: Sequence[Raw]
+) -> list[dict[str, Any]]:
     """Parameters of a base model that the recordings would have pass a limit."""
     if not groups:
         return []
@@ -55,10 +57,10 @@ def pressed_in(model: Model, groups: Sequence[Raw]) -> list[dict[str, Any]]:
         {
             "parameter": name,
             "value": level.parameters[name],
-            "unit": model.units[name],
+            "unit": units[name],
             "current_A": level.current,
         }
-        for level, names in zip(model.levels, pressed, strict=True)
+        for level, names in zip(levels, pressed, strict=True)
         for name in names
     ]
 

@@ -120,15 +120,20 @@ def group_by_current(recordings: Sequence[Recording]) -> list[tuple[float | None
         )
     if unknown:
         return [(None, unknown)]
-    groups: list[list[Recording]] = []
-    for recording in sorted(known, key=lambda r: r.current_level or 0.0):
-        level = recording.current_level or 0.0
-        last = groups[-1][-1].current_level or 0.0 if groups else 0.0
-        if groups and same_level(level, last):
-            groups[-1].append(recording)
+    return group_by_level(known, [r.current_level or 0.0 for r in known])
+
+
+def group_by_level(
+    recordings: Sequence[Recording], levels: Sequence[float]
+) -> list[tuple[float | None, list[Recording]]]:
+    """Group recordings of nearly one level, by rising level."""
+    groups: list[list[tuple[float, Recording]]] = []
+    for level, recording in sorted(zip(levels, recordings, strict=True), key=lambda pair: pair[0]):
+        if groups and same_level(level, groups[-1][-1][0]):
+            groups[-1].append((level, recording))
         else:
-            groups.append([recording])
-    return [(float(np.mean([r.current_level or 0.0 for r in group])), group) for group in groups]
+            groups.append([(level, recording)])
+    return [(float(np.mean([at for at, _ in group])), [one for _, one in group]) for group in groups]
 
 
 def same_level(current: float, other: float) -> bool:

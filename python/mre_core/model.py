@@ -109,22 +109,17 @@ class Model:
             (level.current, [float(level.parameters[name]) for name in self.units]) for level in self.levels
         ]
 
-    def given_for(self, recording: Recording) -> tuple[list[tuple[float | None, list[float]]], Recording]:
-        """Levels as the core takes them for a recording, and the recording with what they are levels of."""
+    def given_for(self, recordings: Sequence[Recording]) -> list[tuple[float | None, list[float]]]:
+        """Levels as the core takes them for recordings: of laws, at what these run over."""
         if not self.laws:
-            return self.given(), recording
-        series = series_of(recording, self.over)
-        at = np.unique(series)
+            return self.given()
+        series = [series_of(recording, self.over) for recording in recordings]
+        at = np.unique(np.concatenate(series))
         if len(at) > _FINE:
-            at = np.linspace(at[0], at[-1], _FINE)
+            steady = [values for values in series if len(values) == 1]
+            at = np.unique(np.concatenate([*steady, np.linspace(at[0], at[-1], _FINE)]))
         values = np.stack([self.laws[name].at(at) for name in self.units], axis=1)
-        levels: list[tuple[float | None, list[float]]] = [
-            (float(place), row.tolist()) for place, row in zip(at, values, strict=True)
-        ]
-        if self.over == "current" or len(levels) == 1:
-            return levels, recording
-        # The core interpolates between levels of the current: what changes takes its place.
-        return levels, recording.at_current(series)
+        return [(float(place), row.tolist()) for place, row in zip(at, values, strict=True)]
 
     def to_dict(self) -> dict[str, Any]:
         """Content of a model file."""
@@ -283,5 +278,5 @@ def simulate(model: Model | str | os.PathLike[str], recording: Recording) -> NDA
             f"recording '{recording.name}' has no simulated force", wanted="a column simulated_force_N"
         )
     effects = [effect.given() for effect in model.effects]
-    levels, moved = model.given_for(recording)
-    return _core.simulate(model.name, levels, moved, effects, model.sizes or None)
+    levels = model.given_for([recording])
+    return _core.simulate(model.name, levels, recording, effects, model.sizes or None, model.over)

@@ -4,6 +4,7 @@ use mre::assembly::{self, Source};
 use mre::device::{Device, Level};
 use mre::extent::Extent;
 use mre::model::{self, Model};
+use mre::over::Over;
 use mre::physics::Classical;
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -33,22 +34,24 @@ const SIMULATED: &str = "simulated";
 
 pub(crate) type Levels = Vec<(Option<f64>, Vec<f64>)>;
 
-pub(crate) fn device(model: &str, levels: Levels) -> PyResult<Device> {
+pub(crate) fn device(model: &str, levels: Levels, over: &str) -> PyResult<Device> {
+    let over = Over::named(over).map_err(to_python)?;
     let levels = levels.into_iter().map(|(current, values)| Level { current, values }).collect();
-    Device::new(Model::named(model).map_err(to_python)?, levels).map_err(to_python)
+    let device = Device::new(Model::named(model).map_err(to_python)?, levels).map_err(to_python)?;
+    Ok(device.running_over(over))
 }
 
 /// Check a model's parameters at levels of the current.
 #[pyfunction]
 pub(crate) fn check(model: &str, levels: Levels) -> PyResult<()> {
-    device(model, levels).map(|_| ())
+    device(model, levels, "current").map(|_| ())
 }
 
 /// Restoring force in N of a model with parameters at levels of the current, or the simulated one of the
-/// recording, with effects. Effects are `(id, law, coefficients, shapes)`; `sizes` are those of the recordings that they
+/// recording, with effects. `over` says what the levels are of. Effects are `(id, law, coefficients, shapes)`; `sizes` are those of the recordings that they
 /// were fitted to.
 #[pyfunction]
-#[pyo3(signature = (model, levels, recording, effects=Vec::new(), sizes=None))]
+#[pyo3(signature = (model, levels, recording, effects=Vec::new(), sizes=None, over="current"))]
 #[allow(clippy::needless_pass_by_value)] // taken over from Python
 pub(crate) fn simulate<'py>(
     py: Python<'py>,
@@ -57,8 +60,9 @@ pub(crate) fn simulate<'py>(
     recording: Recording,
     effects: Vec<Given>,
     sizes: Option<Bound<'py, PyMapping>>,
+    over: &str,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-    let device = if model == SIMULATED { None } else { Some(device(model, levels)?) };
+    let device = if model == SIMULATED { None } else { Some(device(model, levels, over)?) };
     let source = device.as_ref().map_or(Source::Simulated, Source::Device);
     let additions = effects.into_iter().map(effects::addition).collect::<PyResult<Vec<_>>>()?;
     let sizes = match sizes {

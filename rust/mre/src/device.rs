@@ -1,4 +1,5 @@
-//! An identified device: a model with its parameters at one or more levels of the coil current.
+//! An identified device: a model with its parameters at one or more levels of the coil current, or of what else they run
+//! over.
 //!
 //! Between two levels the force is interpolated linearly in the current, sample by sample; outside
 //! them the nearest level holds. So a law affine in the current is two levels, and a campaign at
@@ -7,13 +8,14 @@
 use crate::error::{Error, Result};
 use crate::extent::Extent;
 use crate::model::Model;
+use crate::over::Over;
 use crate::physics::Part;
 use crate::recording::Recording;
 
 /// Parameters at one current.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Level {
-    /// Current in A; `None` where it is not known, for a device with one level.
+    /// Current in A, or what else the levels run over; `None` where it is not known, for a device with one level.
     pub current: Option<f64>,
     /// Values in the order of [`Model::parameters`].
     pub values: Vec<f64>,
@@ -24,6 +26,7 @@ pub struct Level {
 pub struct Device {
     model: Model,
     levels: Vec<Level>,
+    over: Over,
 }
 
 impl Device {
@@ -34,7 +37,7 @@ impl Device {
 
     /// The same device once more.
     pub(crate) fn again(&self) -> Result<Self> {
-        Self::new(Model::named(self.model.name())?, self.levels.clone())
+        Ok(Self::new(Model::named(self.model.name())?, self.levels.clone())?.running_over(self.over))
     }
 
     /// Check and sort the levels.
@@ -78,7 +81,13 @@ impl Device {
                 "one level a current",
             ));
         }
-        Ok(Self { model, levels })
+        Ok(Self { model, levels, over: Over::Current })
+    }
+
+    /// The same where its levels are of something else.
+    #[must_use]
+    pub fn running_over(self, over: Over) -> Self {
+        Self { over, ..self }
     }
 
     /// Restoring force in N at every sample of a recording, whose own force is not looked at.
@@ -91,7 +100,7 @@ impl Device {
         if let [level] = self.levels.as_slice() {
             self.model.add_force(recording, &level.values, None, &mut column, &mut force);
         } else {
-            let current = currents(recording)?;
+            let current = self.over.of(recording)?;
             for (k, level) in self.levels.iter().enumerate() {
                 let weight: Vec<f64> = current.iter().map(|i| self.weight(k, *i)).collect();
                 if weight.iter().any(|w| *w != 0.0) {
@@ -108,7 +117,8 @@ impl Device {
     /// # Errors
     /// As [`Device::simulate`], but for the force itself, which is not checked.
     pub(crate) fn parts(&self, recording: &Recording) -> Result<Vec<(Part, Vec<f64>)>> {
-        let current = if self.levels.len() > 1 { currents(recording)? } else { vec![0.0; recording.len()] };
+        let current =
+            if self.levels.len() > 1 { self.over.of(recording)? } else { vec![0.0; recording.len()] };
         let mut found = Vec::new();
         let mut column = vec![0.0; recording.len()];
         for (k, level) in self.levels.iter().enumerate() {
@@ -151,13 +161,4 @@ pub(crate) fn computed(model: &Model, recording: &Recording, start: usize, force
         model.name()
     );
     Err(Error::Recording(text).in_recording(recording.name()))
-}
-
-fn currents(recording: &Recording) -> Result<Vec<f64>> {
-    let current = recording.current();
-    let constant = || current.level().map(|level| vec![level; recording.len()]);
-    current.changing().map(<[f64]>::to_vec).or_else(constant).ok_or_else(|| {
-        let text = "the model has several levels of current, and the recording none: set current=VALUE[A]";
-        Error::Recording(text.into()).in_recording(recording.name())
-    })
 }

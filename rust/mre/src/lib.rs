@@ -42,6 +42,7 @@ pub mod fitness;
 mod kernel;
 pub mod law;
 pub mod model;
+pub mod over;
 pub mod parameter;
 pub mod physics;
 pub mod recording;
