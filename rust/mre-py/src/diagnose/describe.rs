@@ -3,8 +3,7 @@
 use mre::assembly::{Assembly, Base};
 use mre::device::Level;
 use mre::diagnose::{
-    self, Blank, Diagnosis, Estimate, Estimates, NextTest, On, Place, Proof, Prospect, Refitted, Unknown,
-    strained,
+    self, Blank, Diagnosis, Estimate, Estimates, NextTest, On, Place, Proof, Prospect, Unknown, strained,
 };
 use serde_json::{Value, json};
 
@@ -12,8 +11,6 @@ use serde_json::{Value, json};
 pub(super) struct After {
     /// Of blank campaigns, where some were wanted.
     pub(super) blanks: Option<Blank>,
-    /// Of the parameters that were kept.
-    pub(super) refitted: Option<Refitted>,
     /// True where it was broken off before the end.
     pub(super) broken_off: bool,
 }
@@ -28,7 +25,7 @@ pub(super) fn describe(found: &Diagnosis, base: &Base, own: usize, after: &After
         (0..own).map(|place| law(assembly, estimates, place)).collect()
     };
     json!({
-        "verdict": judgement.map(|j| j.verdict.beside_refitted(after.refitted).id()),
+        "verdict": judgement.map(|j| j.verdict.id()),
         "effects": found.effects.iter().map(|e| effect(found, e)).collect::<Vec<_>>(),
         "where": found.places.iter().map(|f| place(&f.place, f.strength)).collect::<Vec<_>>(),
         "base_levels": levels(base, &found.base_estimates),
@@ -53,7 +50,7 @@ pub(super) fn describe(found: &Diagnosis, base: &Base, own: usize, after: &After
         "left_out": left_out(begun),
         "sizes": sizes(found),
         "blank": after.blanks.as_ref().filter(|b| b.count > 0).map(blank),
-        "refitted": after.refitted.map(|r| json!({"rms_as_given": r.as_given, "rms_fitted": r.fitted, "as_well": r.as_well})),
+        "refitted": found.refitted.map(|r| json!({"rms_as_given": r.as_given, "rms_fitted": r.fitted, "as_well": r.as_well})),
         "interrupted": after.broken_off,
     })
 }
@@ -218,7 +215,7 @@ fn levels(base: &Base, estimates: &Estimates) -> Vec<Value> {
                 _ => vec![None; levels[0].values.len()],
             };
             let symbols = group.problem.parameters().iter().zip(&own);
-            let pressed = symbols.filter(|(_, e)| levels.len() == 1 && e.is_some_and(|e| e.beyond));
+            let pressed = symbols.filter(|(_, e)| levels.len() == 1 && e.is_some_and(|e| e.pressed));
             let pressed: Vec<&str> = pressed.map(|(p, _)| p.name.as_str()).collect();
             let level = |l: &Level| {
                 json!({"current": l.current, "values": l.values, "intervals": intervals, "pressed": pressed})

@@ -99,13 +99,13 @@ pub(crate) fn diagnose_recordings<'py>(
             };
             let settings = Settings { limits, ..Settings::new(false_alarm, seed, &without, &base) };
             let Some(found) = diagnose::run(&campaign, &base, &own, &settings, link) else { return Ok(None) };
-            let refitted = diagnose::refitted(&found, &groups, link.cancel(), link);
+            let found = diagnose::beside_refitted(found, &groups, link.cancel(), link);
             let blanks = match blank {
                 0 => None,
                 count => Some(diagnose::blank(&found, &base, &own, &settings, count, link)?),
             };
             link.begins(Stage::Done);
-            let after = After { blanks, refitted, broken_off: link.broken_off() };
+            let after = After { blanks, broken_off: link.broken_off() };
             let text = describe::describe(&found, &base, own.len(), &after).to_string();
             Ok(Some((text, found.base_force, found.final_force)))
         },

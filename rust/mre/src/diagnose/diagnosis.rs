@@ -5,6 +5,7 @@ use super::intervals::{Estimate, Estimates};
 use super::locate::Finding;
 use super::next_test::NextTest;
 use super::prove::Proof;
+use super::refitted::Refitted;
 use super::search::Named;
 use super::unknown::Unknown;
 use super::verdict::{Evidence, Verdict};
@@ -58,6 +59,8 @@ pub struct Diagnosis<'a> {
     pub nearest: Vec<&'static str>,
     /// What is off of a base that was kept, where that explains as much as the effects.
     pub off: Vec<Estimate>,
+    /// What a base that was kept would leave with fitted parameters.
+    pub refitted: Option<Refitted>,
     /// The excitation that would best resolve what is in doubt.
     pub next_test: Option<NextTest>,
     /// Effects that the recordings would hide.

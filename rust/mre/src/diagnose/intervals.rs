@@ -33,9 +33,9 @@ pub struct Estimate {
     /// Upper end; infinite ends mean that the recordings do not determine the parameter.
     pub high: f64,
     /// True where it lies on an end of its box that is no ideal of its law, and the recordings press it there.
-    pub pressed: bool,
+    pub at_an_end: bool,
     /// True where it stands at a limit of what is physical that the recordings would plainly have it pass.
-    pub beyond: bool,
+    pub pressed: bool,
 }
 
 /// Coefficients and shapes with their intervals.
@@ -68,7 +68,7 @@ pub(super) fn estimates(assembly: &Assembly, data: Data, unit: &[f64]) -> Estima
         }
         _ => f64::INFINITY,
     };
-    let beyond =
+    let pressed =
         |i: usize, p: &Parameter, value: f64| p.is_pressed(value, system.right[i], system.gram[(i, i)]);
     let coefficients: Vec<Estimate> = assembly
         .coefficients()
@@ -78,8 +78,8 @@ pub(super) fn estimates(assembly: &Assembly, data: Data, unit: &[f64]) -> Estima
         .map(|(i, (p, value))| {
             let half = WIDTH * deviation(i);
             let (low, high) = ((value - half).max(p.smallest), (value + half).min(p.largest));
-            let beyond = beyond(i, &p, *value);
-            Estimate { name: p.name, unit: p.unit, value: *value, low, high, pressed: false, beyond }
+            let pressed = pressed(i, &p, *value);
+            Estimate { name: p.name, unit: p.unit, value: *value, low, high, at_an_end: false, pressed }
         })
         .collect();
     let first = coefficients.len();
@@ -109,12 +109,12 @@ pub(super) fn estimates(assembly: &Assembly, data: Data, unit: &[f64]) -> Estima
                 u if u >= 1.0 && !p.ideal.upper => Some(system.right[first + j]),
                 _ => None,
             };
-            let beyond = beyond(first + j, p, value);
+            let pressed = pressed(first + j, p, value);
             let deviation = deviation(first + j);
             let cost = |slope: f64| 2.0 * INWARD * slope.max(0.0) + (INWARD / deviation).powi(2);
-            let pressed = outward.is_some_and(|slope| deviation > 0.0 && cost(slope) > WIDTH.powi(2));
+            let at_an_end = outward.is_some_and(|slope| deviation > 0.0 && cost(slope) > WIDTH.powi(2));
             let low = low.max(p.smallest);
-            Estimate { name: p.name.clone(), unit: p.unit, value, low, high, pressed, beyond }
+            Estimate { name: p.name.clone(), unit: p.unit, value, low, high, at_an_end, pressed }
         })
         .collect();
     Estimates { coefficients, shapes }

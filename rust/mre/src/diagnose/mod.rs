@@ -97,7 +97,7 @@ pub use next_test::{GivenLimits, KINDS, Kind, Limits, NextTest, Prospect, Signal
 pub use noise::Noise;
 pub use normal::Rows;
 pub use prove::Proof;
-pub use refitted::{Refitted, refitted};
+pub use refitted::{Refitted, beside_refitted};
 pub use run::{beside, run};
 pub use screen::{Score, Trace};
 pub use search::Named;

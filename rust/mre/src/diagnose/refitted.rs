@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use super::alternatives::APART;
-use super::diagnosis::Diagnosis;
+use super::diagnosis::{Diagnosis, Judgement};
 use super::gaps::LeftOut;
 use super::monitor::{Monitor, Stage};
 use super::verdict::Verdict;
@@ -27,12 +27,26 @@ pub struct Refitted {
     pub as_well: bool,
 }
 
-/// Fit the parameters that a diagnosis has kept, in `groups` of recordings that share them, by least squares.
+/// The diagnosis, once the parameters that it has kept were fitted, in `groups` of recordings that share them: where these
+/// leave no more, an effect is a hint. It ends soon after `cancel` is set.
+#[must_use]
+pub fn beside_refitted<'a>(
+    found: Diagnosis<'a>,
+    groups: &[Vec<usize>],
+    cancel: &AtomicBool,
+    monitor: &dyn Monitor,
+) -> Diagnosis<'a> {
+    let refitted = refitted(&found, groups, cancel, monitor);
+    let beside = |j: Judgement| Judgement { verdict: j.verdict.beside_refitted(refitted), ..j };
+    Diagnosis { judgement: found.judgement.map(beside), refitted, ..found }
+}
+
+/// Fit the parameters that a diagnosis has kept by least squares.
 ///
 /// `None` where nothing is missing, where the base is no model without effects whose parameters were kept, where
 /// there are too few samples or a fit is hardly better, and where it was broken off. After `cancel` is set, as the
 /// monitor's breaking off sets it, it ends soon.
-pub fn refitted(
+fn refitted(
     found: &Diagnosis,
     groups: &[Vec<usize>],
     cancel: &AtomicBool,

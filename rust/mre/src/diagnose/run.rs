@@ -170,6 +170,7 @@ fn models<'a>(begun: &Begun<'a>, base: Fitted, named: Named<'a>, data: Data) -> 
         unknown: None,
         nearest: Vec::new(),
         off: Vec::new(),
+        refitted: None,
         next_test: None,
         absorbed: Vec::new(),
         places: Vec::new(),

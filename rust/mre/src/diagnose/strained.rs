@@ -35,7 +35,7 @@ pub fn strained<'e>(assembly: &Assembly, estimates: &'e Estimates, place: usize)
     let ends = estimates.shapes[shapes.clone()].iter().zip(boxes);
     // The interval of one at its end is open on both sides: as much of it as there can be is not nothing.
     let shapeless =
-        |(e, p): &(&Estimate, &Parameter)| e.pressed || (e.value < p.upper && nothing(e, p.lower));
+        |(e, p): &(&Estimate, &Parameter)| e.at_an_end || (e.value < p.upper && nothing(e, p.lower));
     // A change at any moment is no change at one, and between two recordings more changes than the device.
     let values: Vec<f64> = estimates.shapes[shapes.clone()].iter().map(|e| e.value).collect();
     let moment = effect.moment(&values);

@@ -58,7 +58,7 @@ impl Verdict {
 
     /// Where other parameters of the base that were kept leave no more, an effect is a hint.
     #[must_use]
-    pub fn beside_refitted(self, refitted: Option<Refitted>) -> Self {
+    pub(super) fn beside_refitted(self, refitted: Option<Refitted>) -> Self {
         match self {
             Self::MissingPhysics if refitted.is_some_and(|r| r.as_well) => Self::PartlyExplained,
             told => told,
