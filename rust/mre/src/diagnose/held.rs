@@ -102,9 +102,15 @@ impl Null<'_> {
         let free = if effect.is_empty() { 0 } else { w };
         let mut basis = DMatrix::<f64>::zeros(w * shapes.len(), free + unit.len());
         let mut model = DVector::<f64>::zeros(w * shapes.len());
+        // One at its limit does not move with the shapes.
+        let moves_too = |k: usize| {
+            effect
+                .get(k % effect.len().max(1))
+                .is_some_and(|p| p.smallest < values[k] && values[k] < p.largest)
+        };
         for (k, value) in values.iter().enumerate() {
             model[k] = *value;
-            if free > 0 {
+            if moves_too(k) {
                 basis[(k, k)] = 1.0;
             }
             for (j, step) in moves.iter().enumerate() {

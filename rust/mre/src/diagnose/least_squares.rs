@@ -7,6 +7,7 @@ use super::normal::{Normal, Rows};
 use super::point::Point;
 use super::step::{Ridge, step};
 use crate::assembly::Assembly;
+use crate::parameter::Parameter;
 
 /// Steps at most.
 const MOST: usize = 25;
@@ -78,6 +79,7 @@ pub(super) fn refine_at_most(assembly: &Assembly, data: Data, start: &[f64], mos
     if start.is_empty() {
         return here;
     }
+    let limits = assembly.coefficients();
     let mut damping = 1e-3;
     let mut ahead = Some(first);
     let mut system = Normal::zeros(0);
@@ -87,6 +89,7 @@ pub(super) fn refine_at_most(assembly: &Assembly, data: Data, start: &[f64], mos
         }
         if let Some(point) = ahead.take() {
             system = point.with_tangents(assembly, data);
+            hold(&mut system, &limits, &here.coefficients);
         }
         let ridge = Ridge { coefficients: 1e-12, shapes: damping };
         let (step, promise) = step(&system.gram, &system.right, ridge, &here.unit);
@@ -112,4 +115,13 @@ pub(super) fn refine_at_most(assembly: &Assembly, data: Data, start: &[f64], mos
         }
     }
     here
+}
+
+/// Coefficients at a limit stay there while the shapes move: let go, they would take the shapes where they cannot follow.
+fn hold(system: &mut Normal, limits: &[Parameter], coefficients: &[f64]) {
+    for (i, (limit, value)) in limits.iter().zip(coefficients).enumerate() {
+        if *value <= limit.smallest || *value >= limit.largest {
+            system.gram[(i, i)] = 0.0;
+        }
+    }
 }
