@@ -48,8 +48,8 @@ pub(crate) fn check(model: &str, levels: Levels) -> PyResult<()> {
 }
 
 /// Restoring force in N of a model with parameters at levels of the current, or the simulated one of the
-/// recording, with effects. `over` says what the levels are of. Effects are `(id, law, coefficients, shapes)`; `sizes` are those of the recordings that they
-/// were fitted to.
+/// recording, with effects. `over` says what the levels are of. Effects are `(id, law, coefficients, shapes)`;
+/// `sizes` are those of the recordings that they were fitted to.
 #[pyfunction]
 #[pyo3(signature = (model, levels, recording, effects=Vec::new(), sizes=None, over="current"))]
 #[allow(clippy::needless_pass_by_value)] // taken over from Python

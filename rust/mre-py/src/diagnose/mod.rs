@@ -25,12 +25,13 @@ type Forces<'py> = Vec<Bound<'py, PyArray1<f64>>>;
 
 /// Diagnose recordings: `(JSON, base force and final force of every recording)`.
 ///
-/// `groups` are the places of recordings that share parameters of the model. Where `held` has levels, `over` the current or
-/// something else, the model keeps them; where `given` has a force for every recording, that force is the base instead of the
-/// model; `held_effects` as for a simulation, with their `sizes`, are kept with them. `base_effects` are `(id, law, shapes to start from)` of effects that belong to the base,
-/// `without` ids of effects that are ruled out; `limits` (stroke, speed, highest, duration) and `limit_current` are those of
-/// the next test. So many `blank` campaigns are diagnosed after that. `on_stage` is called with each stage in words. Where Ctrl-C
-/// ends it and is not to be raised, what is known by then is returned; it is raised where that is nothing.
+/// `groups` are the places of recordings that share parameters of the model. Where `held` has levels, of the current
+/// or of what else `over` says, the model keeps them; where `given` has a force for every recording, that force is the
+/// base instead of the model; `held_effects` as for a simulation, with their `sizes`, are kept with them.
+/// `base_effects` are `(id, law, shapes to start from)` of effects that belong to the base, `without` ids of effects
+/// that are ruled out; `limits` (stroke, speed, highest, duration) and `limit_current` are those of the next test. So
+/// many `blank` campaigns are diagnosed after that. `on_stage` is called with each stage in words. Where Ctrl-C ends it
+/// and is not to be raised, what is known by then is returned; it is raised where that is nothing.
 #[pyfunction]
 #[pyo3(signature = (recordings, model, groups, *, false_alarm, seed, held=None, over="current", held_effects=Vec::new(), sizes=None, given=None, base_effects=Vec::new(), without=Vec::new(), limits=BTreeMap::new(), limit_current=None, blank=0, threads=None, on_stage=None, on_interrupt="raise"))]
 #[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)]

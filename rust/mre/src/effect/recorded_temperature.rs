@@ -2,8 +2,8 @@
 //!
 //! | symbol | meaning | unit | range |
 //! |---|---|---|---|
-//! | s, `s_c` | share that is lost at the highest temperature, of the stiffness and of the damping | - | 0 to 0.95 |
-//! | the same | of an exponential law: its logarithm | - | 0 to 3 |
+//! | s | share that is lost at the highest temperature | - | 0 to 0.95, of an exponential law its logarithm: 0 to 3 |
+//! | r | the same of the damping, over that of the stiffness | - | 0 to 10 |
 //!
 //! Reference: Ferry, Viscoelastic Properties of Polymers, 3rd ed., Wiley 1980.
 //! Known limit: a temperature that only rises is wear, one that follows the dissipation is heat of its own.
@@ -13,6 +13,8 @@ use crate::parameter::Parameter;
 
 /// Least span of a temperature, K: less may be a thermometer's noise.
 const LEAST_SPAN: f64 = 1.0;
+/// Most that the damping loses, over what the stiffness does.
+const MOST: f64 = 10.0;
 
 /// What is softer where it is warmer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,6 +23,8 @@ pub(super) enum Softer {
     Stiffness,
     /// The whole force.
     Whole,
+    /// What is viscous.
+    Damping,
     /// Stiffness and damping, each by a share of its own.
     Each,
 }
@@ -64,9 +68,12 @@ impl Effect for RecordedTemperature {
             (Softer::Whole, false) => {
                 ("recorded temperature, whole force", "F -> F (1 - s u), u = (T - T_low)/(T_high - T_low)")
             }
+            (Softer::Damping, false) => {
+                ("recorded temperature, damping", "c -> c (1 - s u), u = (T - T_low)/(T_high - T_low)")
+            }
             (Softer::Each, false) => (
-                "recorded temperature, each its own",
-                "k -> k (1 - s u), c -> c (1 - s_c u), u = (T - T_low)/(T_high - T_low)",
+                "recorded temperature, damping by a share of its own",
+                "k -> k (1 - s u), c -> c (1 - r s u), u = (T - T_low)/(T_high - T_low)",
             ),
             (Softer::Stiffness, true) => (
                 "recorded temperature, exponential, stiffness",
@@ -76,9 +83,13 @@ impl Effect for RecordedTemperature {
                 "recorded temperature, exponential, whole force",
                 "F -> F exp(-s u), u = (T - T_low)/(T_high - T_low)",
             ),
+            (Softer::Damping, true) => (
+                "recorded temperature, exponential, damping",
+                "c -> c exp(-s u), u = (T - T_low)/(T_high - T_low)",
+            ),
             (Softer::Each, true) => (
-                "recorded temperature, exponential, each its own",
-                "k -> k exp(-s u), c -> c exp(-s_c u), u = (T - T_low)/(T_high - T_low)",
+                "recorded temperature, exponential, damping by a share of its own",
+                "k -> k exp(-s u), c -> c exp(-r s u), u = (T - T_low)/(T_high - T_low)",
             ),
         };
         About {
@@ -100,28 +111,30 @@ impl Effect for RecordedTemperature {
     }
 
     fn shape(&self, _: &Sizes) -> Vec<Parameter> {
-        let share = |name| within(name, "", 0.0, if self.exponential { 3.0 } else { 0.95 });
-        let mut shape = vec![share("s")];
+        let mut shape = vec![within("s", "", 0.0, if self.exponential { 3.0 } else { 0.95 })];
         if self.softer == Softer::Each {
-            shape.push(share("s_c"));
+            shape.push(within("r", "", 0.0, MOST));
         }
         shape
     }
 
-    fn starts(&self, sizes: &Sizes) -> Vec<Vec<f64>> {
-        let count = self.shape(sizes).len();
-        [0.1, 0.5].map(|share| vec![share; count]).to_vec()
+    fn starts(&self, _: &Sizes) -> Vec<Vec<f64>> {
+        match self.softer {
+            Softer::Each => vec![vec![0.1, 2.0], vec![0.5, 1.5]],
+            Softer::Stiffness | Softer::Whole | Softer::Damping => vec![vec![0.1], vec![0.5]],
+        }
     }
 
     fn factors(&self, scene: &Scene, shape: &[f64]) -> Option<Factors> {
         let warmth = warmth(scene);
         let factors = self.softened(&warmth, shape[0]);
         Some(match self.softer {
+            Softer::Stiffness | Softer::Whole => factors,
+            Softer::Damping => factors.of_damping(),
             Softer::Each => {
-                let damping = Some(self.softened(&warmth, shape[1]).stiffness);
+                let damping = Some(self.softened(&warmth, shape[0] * shape[1]).stiffness);
                 Factors { damping, ..factors }
             }
-            Softer::Stiffness | Softer::Whole => factors,
         })
     }
 }

@@ -18,6 +18,7 @@ struct Stage {
     recording: Recording,
     acceleration: OnceLock<Vec<f64>>,
     current: Option<Vec<f64>>,
+    temperature: Vec<f64>,
     force: Vec<f64>,
     sizes: Sizes,
 }
@@ -27,6 +28,7 @@ impl Stage {
         let displacement: Vec<f64> = time.iter().map(|t| motion(*t).0).collect();
         let velocity: Vec<f64> = time.iter().map(|t| motion(*t).1).collect();
         let force: Vec<f64> = displacement.iter().zip(&velocity).map(|(x, v)| 5.0 * x + 0.3 * v).collect();
+        let temperature: Vec<f64> = time.iter().map(|t| 20.0 + 3.0 * t).collect();
         let recording = Recording::new(Series {
             time,
             displacement,
@@ -34,12 +36,12 @@ impl Stage {
             force: Some(force.clone()),
             simulated: None,
             current: current.clone().map_or(Condition::Missing, Condition::Series),
-            temperature: Condition::Missing,
+            temperature: Condition::Series(temperature.clone()),
             name: "test".into(),
         })
         .expect("valid series");
         let sizes = Sizes::of(std::iter::once(&recording));
-        Self { recording, acceleration: OnceLock::new(), current, force, sizes }
+        Self { recording, acceleration: OnceLock::new(), current, temperature, force, sizes }
     }
 
     /// `amplitude * sin(2 pi f t)` at 1000 Hz.
@@ -55,7 +57,7 @@ impl Stage {
             velocity: self.recording.velocity(),
             acceleration: Acceleration { recording: &self.recording, known: &self.acceleration },
             current: self.current.as_deref(),
-            temperature: None,
+            temperature: Some(&self.temperature),
             force: &self.force,
             whole: &self.force,
             fading: &[],
