@@ -70,7 +70,9 @@ def a_day(**given: float) -> list[Recording]:
 
 
 @pytest.mark.parametrize("campaign", [rooms, a_day])
-@pytest.mark.parametrize(("stiffness", "damping"), [(0.004, 0.0), (0.003, 0.003), (0.002, 0.008), (0.0, 0.01)])
+@pytest.mark.parametrize(
+    ("stiffness", "damping"), [(0.004, 0.0), (0.003, 0.003), (0.002, 0.008), (0.0, 0.01)]
+)
 def test_softening_over_it_is_named(campaign: object, stiffness: float, damping: float) -> None:
     found = mre_core.diagnose(campaign(stiffness=stiffness, damping=damping), "sinh", seed=1)  # type: ignore[operator]
     assert found.verdict == "missing_physics"
