@@ -5,21 +5,12 @@ import numpy as np
 import pytest
 from mre_core import Effect, Level, Model, Recording
 from numpy.typing import NDArray
+from test_effects import SIZES
 
 RATE = 200.0
 SINES = ((0.5, 4.0), (1.0, 2.0), (2.0, 4.0), (3.0, 3.0), (1.0, 4.0))
 """Hz and mm."""
 SINH = {"c0": 0.3, "k0": 5.0, "alpha": 8.0, "beta": 0.3, "F0": 0.0}
-SIZES = {
-    "displacement": 4.0,
-    "velocity": 75.0,
-    "force": 60.0,
-    "step": 0.005,
-    "duration": 12.0,
-    "total": 60.0,
-    "path": 600.0,
-    "energy": 2e4,
-}
 FIXTURE = Effect("rig_compliance", "spring in series", {"f_r": 0.02})
 CREEP = Effect("creep", "logarithmic", {"k_c": 1.5, "t_0": 0.1})
 

@@ -9,21 +9,12 @@ import pytest
 from mre_core import Effect, ExtrapolationWarning, Level, Model, MreError, Recording
 from numpy.typing import NDArray
 from rig import KELVIN_VOIGT, SINH, motion
+from test_effects import SIZES
 
 RATE = 200.0
 SINES = ((0.5, 6.0), (2.0, 4.0), (1.0, 8.0), (3.0, 2.0))
 """Hz and mm."""
-SIZES = {
-    "displacement": 4.0,
-    "velocity": 80.0,
-    "force": 70.0,
-    "step": 0.005,
-    "duration": 12.0,
-    "total": 84.0,
-    "path": 550.0,
-    "energy": 2e4,
-    "temperature": [10.0, 40.0],
-}
+WARMING = SIZES | {"temperature": [10.0, 40.0]}
 LAW = "recorded temperature, stiffness"
 
 
@@ -104,7 +95,7 @@ def test_what_is_in_doubt_gets_a_test_where_a_temperature_is_recorded() -> None:
 def test_a_law_against_its_closed_form() -> None:
     degrees = np.linspace(10, 40, 769)
     moved = motion(temperature=degrees)
-    soft = Model("sinh", (Level(None, SINH),), {}, (Effect("thermal_softening", LAW, {"s": 0.4}),), SIZES)
+    soft = Model("sinh", (Level(None, SINH),), {}, (Effect("thermal_softening", LAW, {"s": 0.4}),), WARMING)
     springs = mre_core.simulate(Model("sinh", (Level(None, SINH | {"c0": 0.0, "F0": 0.0}),)), moved)
     whole = mre_core.simulate(Model("sinh", (Level(None, SINH),)), moved)
     expected = whole - 0.4 * (degrees - 10) / 30 * springs
@@ -119,7 +110,7 @@ def test_it_has_to_be_known(tmp_path: Path) -> None:
         (Level(None, KELVIN_VOIGT),),
         {},
         (Effect("thermal_softening", LAW, {"s": 0.4}),),
-        SIZES,
+        WARMING,
     )
     wanted = "thermal_softening follows the temperature, and there is none: set temperature=VALUE"
     with pytest.raises(MreError, match=wanted):
